@@ -9,20 +9,26 @@
 namespace cardan {
 
 void VariableSpeedParameters::check() const {
-    const std::array positive{std::pair{"period [s]", period},
-                              std::pair{"corner frequency [rad/s]", corner_frequency},
-                              std::pair{"cut-in speed [rad/s]", cut_in},
-                              std::pair{"optimal gain [N m s^2/rad^2]", optimal_gain},
-                              std::pair{"slip", slip},
-                              std::pair{"rated power [W]", rated_power},
-                              std::pair{"largest torque [N m]", largest_torque},
-                              std::pair{"largest rate of the torque [N m/s]", largest_torque_rate},
-                              std::pair{"reference speed [rad/s]", reference_speed},
-                              std::pair{"proportional gain [s]", proportional},
-                              std::pair{"integral gain", integral},
-                              std::pair{"pitch of half gain [rad]", doubling_pitch},
-                              std::pair{"largest rate of the pitch [rad/s]", largest_pitch_rate}};
+    std::vector positive{std::pair{"period [s]", period},
+                         std::pair{"corner frequency [rad/s]", corner_frequency},
+                         std::pair{"cut-in speed [rad/s]", cut_in},
+                         std::pair{"optimal gain [N m s^2/rad^2]", optimal_gain},
+                         std::pair{"slip", slip},
+                         std::pair{"rated power [W]", rated_power},
+                         std::pair{"largest torque [N m]", largest_torque},
+                         std::pair{"largest rate of the torque [N m/s]", largest_torque_rate},
+                         std::pair{"reference speed [rad/s]", reference_speed},
+                         std::pair{"largest rate of the pitch [rad/s]", largest_pitch_rate}};
+    if (gains.empty())
+        positive.insert(positive.end(), {{"proportional gain [s]", proportional},
+                                         {"integral gain", integral},
+                                         {"pitch of half gain [rad]", doubling_pitch}});
+    for (const PitchGains& one : gains) positive.emplace_back("integral gain", one.integral);
     for (const auto& [quantity, value] : positive) require_positive(name, quantity, value);
+    for (std::size_t i = 1; i < gains.size(); ++i)
+        if (!(gains[i].pitch > gains[i - 1].pitch))
+            throw InputError(name, "pitch of the gains [rad]", text(gains[i - 1].pitch, ", ", gains[i].pitch),
+                             "rising");
     const double transition = transition_speed();
     if (!(cut_in < optimum_from && optimum_from < transition && transition < rated_speed))
         throw InputError(name, "speeds of the torque curve [rad/s]",
@@ -44,7 +50,8 @@ VariableSpeedController::VariableSpeedController(VariableSpeedParameters paramet
 double VariableSpeedController::torque(double speed, double pitch) const {
     const VariableSpeedParameters& p = own_;
     if (speed >= p.rated_speed || pitch >= p.constant_power_pitch)
-        return std::min(p.largest_torque, p.rated_power / std::max(speed, p.cut_in));
+        return std::min(p.largest_torque,
+                        p.rated_power / (p.constant_power ? std::max(speed, p.cut_in) : p.rated_speed));
     if (speed <= p.cut_in) return 0;
     if (speed < p.optimum_from)
         return p.optimal_gain * p.optimum_from * p.optimum_from * (speed - p.cut_in) / (p.optimum_from - p.cut_in);
@@ -54,13 +61,43 @@ double VariableSpeedController::torque(double speed, double pitch) const {
     return std::min(torque, p.largest_torque);
 }
 
+PitchGains VariableSpeedController::gains_at(double pitch) const {
+    const std::vector<PitchGains>& rows = own_.gains;
+    const auto above = std::ranges::lower_bound(rows, pitch, {}, &PitchGains::pitch);
+    if (above == rows.begin()) return rows.front();
+    if (above == rows.end()) return rows.back();
+    const PitchGains& below = *(above - 1);
+    const double part = (pitch - below.pitch) / (above->pitch - below.pitch);
+    return {pitch, std::lerp(below.proportional, above->proportional, part),
+            std::lerp(below.integral, above->integral, part)};
+}
+
+void VariableSpeedController::begin_integral(double pitch) {
+    memory_[pitch_integral] = own_.gains.empty() ? pitch / (gain(pitch) * own_.integral) : pitch;
+}
+
+// The sum is that of the error, which the gain of the moment multiplies; with rows of gains, that of the demand.
+double VariableSpeedController::demanded_pitch(double error, double pitch) {
+    const VariableSpeedParameters& p = own_;
+    double& sum = memory_[pitch_integral];
+    if (!p.gains.empty()) {
+        const PitchGains own = gains_at(pitch);
+        sum = std::clamp(sum + own.integral * error * p.period, p.least_pitch, p.largest_pitch);
+        return own.proportional * error + sum;
+    }
+    const double own_gain = gain(pitch);
+    sum = std::clamp(sum + error * p.period, p.least_pitch / (own_gain * p.integral),
+                     p.largest_pitch / (own_gain * p.integral));
+    return own_gain * (p.proportional * error + p.integral * sum);
+}
+
 VariableSpeedController::Demand VariableSpeedController::step(const Measured& now) {
     const VariableSpeedParameters& p = own_;
-    double &speed = memory_[filtered_speed], &sum = memory_[pitch_integral];
+    double& speed = memory_[filtered_speed];
     if (memory_[started] == 0) {
         memory_[started] = 1;
         speed = now.generator_speed;
-        sum = now.pitch / (gain(now.pitch) * p.integral);
+        begin_integral(now.pitch);
         memory_[torque_before] = torque(speed, now.pitch);
         memory_[pitch_before] = now.pitch;
     }
@@ -73,11 +110,8 @@ VariableSpeedController::Demand VariableSpeedController::step(const Measured& no
     memory_[torque_before] = wanted_torque;
 
     // The integral cannot ask for more than the range of the pitch.
-    const double own_gain = gain(now.pitch), error = speed - p.reference_speed;
-    sum = std::clamp(sum + error * p.period, p.least_pitch / (own_gain * p.integral),
-                     p.largest_pitch / (own_gain * p.integral));
     const double wanted =
-        std::clamp(own_gain * (p.proportional * error + p.integral * sum), p.least_pitch, p.largest_pitch);
+        std::clamp(demanded_pitch(speed - p.reference_speed, now.pitch), p.least_pitch, p.largest_pitch);
     const double step = p.largest_pitch_rate * p.period;
     double& pitch = memory_[pitch_before];
     pitch = std::clamp(wanted, pitch - step, pitch + step);

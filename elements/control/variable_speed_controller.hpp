@@ -11,6 +11,13 @@
 
 namespace cardan {
 
+/// Of a PI controller from the speed of the generator to the pitch, at a pitch.
+struct PitchGains {
+    double pitch = 0;         ///< rad
+    double proportional = 0;  ///< s (rad per rad/s)
+    double integral = 0;      ///< 1 (rad per rad)
+};
+
 /// Parameters, SI, of the generator's side of the gearbox.
 ///                    [J. Jonkman, S. Butterfield, W. Musial, G. Scott 2009, NREL/TP-500-38060, section 7]
 struct VariableSpeedParameters {
@@ -23,16 +30,19 @@ struct VariableSpeedParameters {
     double cut_in = 0, optimum_from = 0, rated_speed = 0;  ///< rad/s
     double optimal_gain = 0;                               ///< N m / (rad/s)^2
     double slip = 0;                                       ///< rated speed over the synchronous one, minus 1
-    double rated_power = 0;                                ///< mechanical, W: constant power above rated speed
+    double rated_power = 0;                                ///< mechanical, W, above rated speed
+    bool constant_power = true;                            ///< false: the torque is constant above rated speed
     double largest_torque = 0;                             ///< N m
     double largest_torque_rate = 0;                        ///< N m/s
-    /// Above this pitch angle the power is constant whatever the speed, rad.
+    /// Above this pitch angle torque or power are constant whatever the speed, rad.
     double constant_power_pitch = 0;
 
-    double reference_speed = 0;                 ///< of the pitch controller, rad/s
-    double proportional = 0;                    ///< at zero pitch, s (rad per rad/s)
-    double integral = 0;                        ///< at zero pitch, 1 (rad per rad)
-    double doubling_pitch = 0;                  ///< pitch angle at which the gain is halved, rad
+    double reference_speed = 0;  ///< of the pitch controller, rad/s
+    double proportional = 0;     ///< at zero pitch, s (rad per rad/s)
+    double integral = 0;         ///< at zero pitch, 1 (rad per rad)
+    double doubling_pitch = 0;   ///< pitch angle at which the gain is halved, rad
+    /// Gains over the pitch in the place of those three, linear between the rows, constant beyond the ends.
+    std::vector<PitchGains> gains = {};
     double least_pitch = 0, largest_pitch = 0;  ///< rad
     double largest_pitch_rate = 0;              ///< rad/s
 
@@ -67,7 +77,7 @@ public:
 
     /// Torque at a filtered speed and pitch, without limits of rate, N m.
     double torque(double speed, double pitch) const;
-    /// Gain of the pitch controller at a pitch, relative to that at zero.
+    /// Without VariableSpeedParameters::gains: gain of the pitch controller at a pitch, relative to that at zero.
     double gain(double pitch) const { return 1 / (1 + pitch / own_.doubling_pitch); }
 
     /// What it remembers, and back.
@@ -79,6 +89,11 @@ public:
 
 private:
     enum Memory : std::size_t { started, filtered_speed, pitch_integral, torque_before, pitch_before, count };
+
+    // The sum of the PI controller, in its limits; begins at a pitch or goes on by an error of the speed.
+    void begin_integral(double pitch);
+    double demanded_pitch(double error, double pitch);
+    PitchGains gains_at(double pitch) const;
 
     VariableSpeedParameters own_;
     std::array<double, count> memory_{};

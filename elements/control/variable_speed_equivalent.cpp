@@ -86,6 +86,8 @@ ControlSignal torque_demand(const VariableSpeedParameters& p, const ControlSigna
                             const VariableSpeedRounding& rounding) {
     const TorqueCurve curve(p, rounding.speed * p.rated_speed);
     curve.check();
+    if (!p.gains.empty()) throw InputError(p.name, "rows of gains", p.gains.size(), "none: gains at zero pitch");
+    if (!p.constant_power) throw InputError(p.name, "torque above rated speed", "constant", "of constant power");
     require_positive(p.name, "width of the change to constant power [rad]", rounding.constant_power);
     const ControlSignal below = speed.through([curve](double w) { return curve.at(w); }),
                         constant = speed.through([curve](double w) { return curve.constant_power(w); });

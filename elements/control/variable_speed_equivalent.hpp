@@ -44,8 +44,8 @@ struct VariableSpeedEquivalent {
 /// actuators (Actuator::rates), for the torque largest_torque_rate, for the pitch largest_pitch_rate.
 ///
 /// States start from the measured values given, as the program does at its first sample.
-/// @throws InputError as VariableSpeedParameters::check(), for a largest torque below that at rated power, and for
-/// widths that are not positive or meet
+/// @throws InputError as VariableSpeedParameters::check(), for rows of gains, a constant torque above rated speed, a
+/// largest torque below that at rated power, and for widths that are not positive or meet
 VariableSpeedEquivalent variable_speed_equivalent(const VariableSpeedParameters& parameters,
                                                   const VariableSpeedSignals& measured,
                                                   const VariableSpeedController::Measured& start,

@@ -52,6 +52,7 @@ void take_air(turbines::Machine& machine, const AirArguments& arguments, bool al
 }
 
 turbines::WindSource wind_source(const std::string& given) {
+    if (given == "none") return turbines::WindSource::none();
     if (std::filesystem::exists(given)) return std::filesystem::path(given);
     return number("--wind", given, given, wind_file_format);
 }

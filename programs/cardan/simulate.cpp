@@ -48,8 +48,8 @@ std::vector<solvers::HistoryPanel> panels(const SimulateArguments& a, const turb
                                           const std::vector<Channel>& channels) {
     if (a.plot.empty()) {
         const auto usual =
-            !a.controller.what.empty() ? controlled_panels(layout, channels) : usual_panels(layout, channels);
-        return a.wind.empty() ? usual : with_air(usual);
+            a.controller.what == "none" ? usual_panels(layout, channels) : controlled_panels(layout, channels);
+        return a.wind == "none" ? usual : with_air(usual);
     }
     std::vector<solvers::HistoryPanel> all;
     const solvers::History names{"--plot", channels, {}, {}};
@@ -130,22 +130,26 @@ turbines::Simulation simulation(SimulateArguments& a, const turbines::Machine& m
 }
 
 int run(SimulateArguments& a, const CommandLine& command) {
-    check_run_options(a.run);
+    require_positive("--step", "value", a.run.step);
+    if (a.duration) require_positive("--duration", "value", *a.duration);
     a.machine.gravity = !a.no_gravity;
     if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
     turbines::Machine machine = prepared_machine(a.machine);
-    if (!a.wind.empty()) take_air(machine, a.air, a.machine.notes);
+    const bool in_air = a.wind.empty() ? machine.run && machine.run->air : a.wind != "none";
+    // Air of the model's own run that it cannot have is the library's to refuse.
+    if (in_air && (machine.air || !a.air.file.empty() || !a.wind.empty())) take_air(machine, a.air, a.machine.notes);
     turbines::Simulation simulated = simulation(a, machine);
     if (a.list) return print(simulated.channels()), 0;
     const turbines::MachineLayout& layout = simulated.turbine().layout();
     const std::vector<solvers::HistoryPanel> pictures = panels(a, layout, simulated.channels());
 
+    const double duration = simulated.duration({.duration = a.duration});
     const Stopwatch watch;
-    const turbines::Recording result = simulated.record(a.run.out + ".h5", {.duration = a.run.duration,
+    const turbines::Recording result = simulated.record(a.run.out + ".h5", {.duration = a.duration,
                                                                             .step = a.run.step,
                                                                             .resume = a.run.resume,
                                                                             .origin = run_text("simulate", command),
-                                                                            .progress = TimeShown(a.run.duration)});
+                                                                            .progress = TimeShown(duration)});
     const Elapsed elapsed = watch.elapsed();
     progress("\r                              \r");
 

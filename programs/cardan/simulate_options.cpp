@@ -16,11 +16,14 @@ namespace {
 
 void add_controller_options(CommandLine& app, ControllerArguments& options) {
     app.add_option("--controller", options.what,
-                   "sets pitch and generator torque: baseline, that of the report of the NREL 5 MW machine, or the "
-                   "path of a shared library with Bladed's function DISCON")
-        .type_name("baseline|LIBRARY");
+                   "sets pitch and generator torque: baseline, for variable speed and pitch, with the gains of the "
+                   "model's controller file or from the machine itself; the path of a shared library with Bladed's "
+                   "function DISCON; or none (default: the model's, DLL_FileName of ServoDyn, or where that cannot be "
+                   "loaded here, baseline)")
+        .type_name("baseline|LIBRARY|none");
     app.add_option("--controller-input", options.input, "file that the library reads").type_name("FILE");
-    app.add_option("--controller-period", options.period, "time between its calls, s");
+    app.add_option("--controller-period", options.period,
+                   "time between its calls, s (default: DLL_DT of the model, else 0.0125)");
     app.add_option(
            "--pitch-control", options.pitch_control,
            "what the library is told of the pitch: collective, or individual, a demand for each blade (default: "
@@ -32,14 +35,14 @@ void add_controller_options(CommandLine& app, ControllerArguments& options) {
                    "springs the pitch is prescribed, one period behind the demand)")
         .one_word();
     app.add_option("--generator-efficiency", options.efficiency,
-                   "electrical over mechanical power, for the power that is recorded and that the controller measures");
+                   "electrical over mechanical power, for the power that is recorded and that the controller measures "
+                   "(default: the machine's)");
 }
 
 turbines::ActuatorOptions actuators_of(const ControllerArguments& a) {
     turbines::ActuatorOptions actuators;
     if (a.pitch_actuator.empty()) return actuators;
     constexpr auto option = "--pitch-actuator", allowed = "HZ[:DAMPING[:DEG/S]], all > 0";
-    if (a.what.empty()) throw InputError(option, "value", a.pitch_actuator, "only with --controller");
     const std::vector<std::string> parts = split(a.pitch_actuator, ':');
     std::vector<double> values;
     values.reserve(parts.size());
@@ -56,8 +59,12 @@ turbines::Controller controller_of(const SimulateArguments& arguments) {
     using turbines::Controller;
     const ControllerArguments& a = arguments.controller;
     Controller controller;
-    if (a.what == "baseline") controller.kind = Controller::Kind::baseline;
-    if (!a.what.empty() && a.what != "baseline") controller = Controller::discon(a.what);
+    if (a.what == "baseline")
+        controller = Controller::baseline();
+    else if (a.what == "none")
+        controller = Controller::none();
+    else if (!a.what.empty())
+        controller = Controller::discon(a.what);
     controller.input = a.input;
     controller.output = arguments.run.out;
     controller.period = a.period;
@@ -79,12 +86,13 @@ turbines::RotorTorque rotor_torque_of(const std::string& given) {
 }  // namespace
 
 void declare(CommandLine& app, SimulateArguments& a) {
-    a.run.duration = turbines::RecordSettings().duration;
     add_machine(app, a.machine);
-    add_run_options(app, a.run);
+    app.add_option("--duration", a.duration, "simulated time, s (default: the model's, TMax, else 20)");
+    add_integration_options(app, a.run);
     add_station_options(app, a.stations);
     app.add_option("--rpm", a.rpm, "rotor speed at the start, rev/min (default: the model's)");
-    app.add_option("--azimuth", a.azimuth, "azimuth of blade 1 at the start, deg, zero upward");
+    app.add_option("--azimuth", a.azimuth,
+                   "azimuth of blade 1 at the start, deg, zero upward (default: the model's, else 0)");
     app.add_option("--start", a.start, "steady: bent as in steady rotation, or at rest; undeformed: straight")
         .one_of({"steady", "undeformed"});
     app.add_option("--q", a.q, "COORDINATE=NUMBER: where it starts instead, rad or m; may be repeated").one_word();
@@ -95,8 +103,10 @@ void declare(CommandLine& app, SimulateArguments& a) {
         "positive rotation (default: none; in the wind that of the air in steady rotation)");
     app.add_option("--generator-slope", a.slope,
                    "rise of this torque with the generator's speed above that at the start, as of slip, N m s/rad");
-    app.add_option("--wind", a.wind, std::string("speed at the hub's height: ") + wind_file_format)
-        .type_name("SPEED|FILE");
+    app.add_option("--wind", a.wind,
+                   std::string("speed at the hub's height: ") + wind_file_format +
+                       "; none: no air (default: the model's, InflowFile, else none)")
+        .type_name("SPEED|FILE|none");
     add_air_options(app, a.air);
     add_wake_option(app, a.air);
     app.add_option(
@@ -128,7 +138,7 @@ turbines::SimulationSettings settings_of(const SimulateArguments& a) {
     o.machine = numbers_of(a.machine);
     o.gravity = a.machine.gravity;
     if (a.start == "undeformed") o.start = turbines::SimulationStart::undeformed;
-    o.azimuth = a.azimuth * units::degree;
+    if (a.azimuth) o.azimuth = *a.azimuth * units::degree;
     o.q = named_numbers("--q", a.q);
     o.qd = named_numbers("--qd", a.qd);
     o.stations = stations_of(a.stations);
@@ -140,11 +150,43 @@ turbines::SimulationSettings settings_of(const SimulateArguments& a) {
     return o;
 }
 
+namespace {
+
+void keep_taken(const turbines::WindSource& wind, SimulateArguments& a) {
+    if (!a.wind.empty()) return;
+    a.wind = wind.is_none() ? "none" : wind.file() != nullptr ? wind.file()->string() : digits(*wind.speed());
+}
+
+void keep_taken(const std::string& name, double value, std::vector<std::string>& named) {
+    const std::string begin = name + "=";
+    if (std::ranges::none_of(named, [&](const std::string& one) { return one.starts_with(begin); }))
+        named.push_back(begin + digits(value));
+}
+
+void keep_taken(const turbines::Controller& controller, ControllerArguments& a) {
+    using Kind = turbines::Controller::Kind;
+    a.what = controller.kind == Kind::none       ? "none"
+             : controller.kind == Kind::baseline ? "baseline"
+                                                 : controller.library.string();
+    if (!controller.acts()) return;
+    a.input = controller.input.string();
+    a.period = controller.period;
+    a.efficiency = controller.generator_efficiency;
+    a.pitch_control = controller.is_individual() ? "individual" : "collective";
+}
+
+}  // namespace
+
 void keep_taken(const turbines::SimulationSettings& taken, SimulateArguments& a) {
     a.rpm = turbines::in_unit(*taken.rotor_speed, units::rpm);
+    a.azimuth = turbines::in_unit(*taken.azimuth, units::degree);
+    a.no_gravity = !taken.gravity;
+    a.torque = taken.generator_torque;
+    a.slope = taken.generator_slope;
     keep_taken(taken.machine, a.machine);
-    if (taken.controller.acts())
-        a.controller.pitch_control = taken.controller.is_individual() ? "individual" : "collective";
+    keep_taken(*taken.wind, a);
+    for (const auto& [name, value] : taken.q) keep_taken(name, value, a.q);
+    keep_taken(taken.controller, a.controller);
 }
 
 }  // namespace cardan::program

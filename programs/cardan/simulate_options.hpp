@@ -16,9 +16,9 @@ namespace cardan::program {
 
 /// Of a controller.
 struct ControllerArguments {
-    std::string what;   ///< "baseline", or the path of a shared library; empty: none
+    std::string what;   ///< "baseline", "none", or the path of a shared library; empty: the model's
     std::string input;  ///< file for the library
-    double period = turbines::Controller().period, efficiency = 1;
+    std::optional<double> period, efficiency;
     std::string pitch_control;   ///< of a library: collective or individual; empty: as the model says
     std::string pitch_actuator;  ///< HZ[:DAMPING[:DEG/S]]; empty: none
 };
@@ -29,9 +29,9 @@ struct SimulateArguments {
     StationOptions stations;
     ControllerArguments controller;
     AirArguments air;
-    std::optional<double> rpm, torque;
+    std::optional<double> rpm, torque, azimuth, duration;
     std::string start = "steady", rotor_torque, wind;
-    double azimuth = 0, slope = 0;
+    double slope = 0;
     bool no_gravity = false, list = false;
     std::vector<std::string> plot, q, qd;
 };

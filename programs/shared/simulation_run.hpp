@@ -18,13 +18,17 @@ struct RunArguments {
     bool resume = false;
 };
 
-inline void add_run_options(CommandLine& app, RunArguments& a) {
-    app.add_option("--duration", a.duration, "simulated time, s");
+inline void add_integration_options(CommandLine& app, RunArguments& a) {
     app.add_option("--method", a.method, "method of integration").one_of(method_names);
     app.add_option("--order", a.order, "highest order of bdf (beyond 2, weakly damped modes may grow)");
     app.add_option("--tolerance", a.tolerance, "relative tolerance of a step");
     app.add_option("--step", a.step, "time between outputs, s");
     app.add_option("--out", a.out, "prefix of the files");
+}
+
+inline void add_run_options(CommandLine& app, RunArguments& a) {
+    app.add_option("--duration", a.duration, "simulated time, s");
+    add_integration_options(app, a);
 }
 
 /// Before any file is begun.  @throws InputError

@@ -1,6 +1,5 @@
 #include "turbines/analysis/controlled_machine.hpp"
 
-#include "turbines/analysis/detail/baseline.hpp"
 #include "turbines/analysis/detail/sensors.hpp"
 
 #include <memory>
@@ -14,8 +13,8 @@ namespace {
 constexpr const char* yaw_input = "yaw demand";
 
 solvers::SampledController baseline_controller(const Controller& own, const Turbine& turbine) {
-    const auto program = std::make_shared<VariableSpeedController>(baseline_parameters(own));
-    solvers::SampledController controller{.name = "baseline", .inputs = {}, .period = own.period};
+    const auto program = std::make_shared<VariableSpeedController>(*own.parameters);
+    solvers::SampledController controller{.name = "baseline", .inputs = {}, .period = *own.period};
     controller.update = [program, layout = turbine.layout()](const solvers::SampleInput& in, VectorOut u) {
         const Model& model = in.kinematics.model();
         const double speed = layout.gear_ratio * in.state.qd(model.index(*layout.generator));
@@ -43,12 +42,12 @@ public:
         : library_(own.library, {.input = own.input.string(),
                                  .output = own.output,
                                  .blades = static_cast<int>(turbine.layout().pitch.size()),
-                                 .period = own.period,
+                                 .period = *own.period,
                                  .individual_pitch = own.is_individual()}),
           sensors_(turbine, options.also_measured),
           layout_(turbine.layout()),
-          efficiency_(own.generator_efficiency),
-          period_(own.period),
+          efficiency_(*own.generator_efficiency),
+          period_(*own.period),
           torque_(turbine.system().forces.states().index(torque_state)),
           yaw_(prescribed_yaw(turbine)),
           report_(options.report) {}
@@ -104,7 +103,7 @@ private:
 solvers::SampledController library_controller(const Controller& own, const Turbine& turbine,
                                               const ControlledMachineOptions& options) {
     const auto run = std::make_shared<LibraryRun>(own, turbine, options);
-    solvers::SampledController controller{.name = "DISCON", .inputs = {}, .period = own.period};
+    solvers::SampledController controller{.name = "DISCON", .inputs = {}, .period = *own.period};
     controller.update = [run](const solvers::SampleInput& in, const VectorOut& u) { run->update(in, u); };
     controller.keeps_to_itself = true;
     return controller;
@@ -129,7 +128,7 @@ ControlledMachine controlled_machine(const Controller& own, const Turbine& machi
         controller.inputs.emplace_back(yaw_input);
         controller.drives.push_back({yaw, yaw_input});
     }
-    return {turbine, std::move(controller), actuated.channels(turbine.system(), individual, own.generator_efficiency),
+    return {turbine, std::move(controller), actuated.channels(turbine.system(), individual, *own.generator_efficiency),
             text(own.is_individual() ? "individual pitch; " : "", actuated.in_words())};
 }
 

@@ -12,11 +12,12 @@
 
 namespace cardan::turbines {
 
-/// With what the machine says of the pitch where the controller says nothing.
+/// With what the machine says where the controller says nothing: kind, period, efficiency, individual pitch, numbers of
+/// the baseline controller. What was taken is reported.
 /// @throws InputError for a period or an efficiency out of range, a file that nobody reads, an actuator without a
-/// controller, a rotor that does not turn freely, and the baseline controller on another machine than the NREL 5 MW
-/// machine; FileError for an input that does not exist
-Controller checked(Controller controller, const Machine& machine);
+/// controller, a rotor that does not turn freely, and as baseline_controller(); FileError for an input that does not
+/// exist
+Controller checked(Controller controller, const Machine& machine, const Report& report = {});
 
 /// Makes the pitch bearings of a machine that is to be controlled: blades without a spring of their own are prescribed,
 /// or get one for actuators that are asked for.

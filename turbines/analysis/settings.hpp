@@ -14,6 +14,7 @@
 #pragma once
 
 #include "elements/aerodynamics/wind.hpp"
+#include "elements/control/variable_speed_controller.hpp"
 #include "solvers/time/integrate.hpp"
 #include "turbines/analysis/remark.hpp"
 #include "turbines/control/actuators.hpp"
@@ -66,7 +67,8 @@ struct AirSettings {
     bool induction = true;               ///< false: the rotor induces no velocities
 };
 
-/// The wind of a run in time: a speed (steady), a file, or a wind with all that it has. `= 12`, `= "gust.csv"`.
+/// The wind of a run in time: a speed (steady), a file, a wind with all that it has, or none at all. `= 12`,
+/// `= "gust.csv"`, `= WindSource::none()`.
 class WindSource {
 public:
     template <class Speed>
@@ -81,36 +83,49 @@ public:
     /// As it is, whatever AirSettings say.
     WindSource(Wind wind) : what_(std::move(wind)) {}  // NOLINT(google-explicit-constructor)
 
+    /// No air.
+    static WindSource none() { return WindSource(std::monostate{}); }
+
+    bool is_none() const { return std::holds_alternative<std::monostate>(what_); }
     const double* speed() const { return std::get_if<double>(&what_); }
     const std::filesystem::path* file() const { return std::get_if<std::filesystem::path>(&what_); }
     const Wind* wind() const { return std::get_if<Wind>(&what_); }
 
 private:
-    std::variant<double, std::filesystem::path, Wind> what_;
+    explicit WindSource(std::monostate nothing) : what_(nothing) {}
+
+    std::variant<double, std::filesystem::path, Wind, std::monostate> what_;
 };
 
 /// What sets pitch and generator torque in a run in time.
 struct Controller {
-    enum class Kind : std::uint8_t { none, baseline, library };
+    /// of_machine: that of the model's own run (ModelRun): its library, or the baseline controller where that cannot be
+    /// loaded here; none if it has no such run.
+    enum class Kind : std::uint8_t { of_machine, none, baseline, library };
 
-    Kind kind = Kind::none;
+    Kind kind = Kind::of_machine;
     std::filesystem::path library = {};  ///< shared library with Bladed's function DISCON
     std::filesystem::path input = {};    ///< file that the library reads
     std::string output = "cardan";       ///< prefix of files that the library writes
-    double period = 0.0125;              ///< between its calls, s
-    double generator_efficiency = 1;     ///< electrical over mechanical power, which is recorded and measured
+    /// Between its calls, s; none: that of the model for its own library, else 0.0125.
+    std::optional<double> period = {};
+    /// Electrical over mechanical power, which is recorded and measured; none: the machine's, else 1.
+    std::optional<double> generator_efficiency = {};
     /// A demand for every blade, of a library; none: as the machine says (Ptch_Cntrl of ServoDyn), else collective.
     std::optional<bool> individual_pitch = {};
     /// Without a frequency of the pitch: springs of the machine's pitch bearings, or the pitch is prescribed.
     ActuatorOptions actuators = {};
+    /// Of the baseline controller; none: baseline_controller(). Their period is `period`.
+    std::optional<VariableSpeedParameters> parameters = {};
 
-    /// That of the report of the NREL 5 MW machine, for this machine.
+    static Controller none() { return {.kind = Kind::none}; }
+    /// Variable speed and pitch, with numbers for this machine: baseline_controller().
     static Controller baseline() { return {.kind = Kind::baseline}; }
     /// In a shared library.
     static Controller discon(std::filesystem::path library, std::filesystem::path input = {}) {
         return {.kind = Kind::library, .library = std::move(library), .input = std::move(input)};
     }
-    bool acts() const { return kind != Kind::none; }
+    bool acts() const { return kind == Kind::baseline || kind == Kind::library; }
     bool is_individual() const { return individual_pitch.value_or(false); }
 };
 
@@ -131,10 +146,12 @@ enum class SimulationStart : std::uint8_t {
     undeformed  ///< straight
 };
 
-/// Of a Simulation.
+/// Of a Simulation. A machine from a model that describes a run in time (Machine::run), as OpenFAST's main files do,
+/// runs that: what is not given is the model's. In another wind under a controller the start is as the machine runs in
+/// it (MachineOperation, by a rotor that does not bend); else it has the machine's rotor speed and the pitch at that.
 struct SimulationSettings {
-    std::optional<double> rotor_speed = {};  ///< at the start, rad/s; none: the machine's
-    std::optional<WindSource> wind = {};     ///< none: there is no air
+    std::optional<double> rotor_speed = {};  ///< at the start, rad/s; none: see below
+    std::optional<WindSource> wind = {};     ///< none: the model's; without one there is no air
     AirSettings air = {};
     Controller controller = {};
     /// Without a controller: torque of the generator on its own shaft, N m, positive brakes positive rotation, and its
@@ -144,7 +161,7 @@ struct SimulationSettings {
     double generator_slope = 0;
     RotorTorque rotor_torque = {};
     MachineSettings machine = {};
-    double azimuth = 0;                     ///< of blade 1 at the start, zero upward, rad
+    std::optional<double> azimuth = {};     ///< of blade 1 at the start, zero upward, rad; none: the model's, else 0
     std::map<std::string, double> q = {};   ///< coordinates that start elsewhere, by name, rad or m
     std::map<std::string, double> qd = {};  ///< and their rates, rad/s or m/s
     Stations stations = {};                 ///< further channels along blades and tower
@@ -152,7 +169,7 @@ struct SimulationSettings {
     int max_order = 2;                      ///< of Method::bdf, beyond which weakly damped modes may grow
     solvers::Method method = solvers::Method::dirk;
     SimulationStart start = SimulationStart::steady;
-    bool gravity = true;
+    bool gravity = true;                   ///< unless the model has none
     Report report = {};                    ///< receives the remarks as they arise: Simulation::remarks() has all
     std::function<bool()> cancelled = {};  ///< asked before every step; true: the run ends
 };
@@ -229,7 +246,8 @@ struct LinearModelSettings {
 
 /// Of Simulation::record().
 struct RecordSettings {
-    double duration = 20;     ///< time that is simulated, from the start of the simulation, s
+    /// Time that is simulated, from the start of the simulation, s; none: the model's (ModelRun), else 20.
+    std::optional<double> duration = {};
     double step = 0.02;       ///< between outputs, s
     bool resume = false;      ///< goes on with the file, from its checkpoint
     std::string origin = {};  ///< begins the file's description: by what it was made

@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "solvers/hdf5/history_recording.hpp"
 #include "turbines/analysis/controlled_machine.hpp"
+#include "turbines/analysis/detail/model_run.hpp"
 #include "turbines/analysis/detail/simulation_model.hpp"
 #include "turbines/analysis/resume.hpp"
 #include "turbines/machine/machine_text.hpp"
@@ -40,8 +41,8 @@ solvers::IntegrationOptions integration_of(const SimulationSettings& o,
     return options;
 }
 
-void check(const RecordSettings& options) {
-    require_positive("RecordSettings::duration", "value [s]", options.duration);
+void check(const RecordSettings& options, const Machine& machine) {
+    require_positive("RecordSettings::duration", "value [s]", duration_of(options, machine));
     require_positive("RecordSettings::step", "value [s]", options.step);
 }
 
@@ -76,12 +77,15 @@ struct Simulation::Parts {
 
 void Simulation::Parts::set_machine(const Machine& source) {
     check(settings);
+    take_run(source, settings, report());
     machine = with_settings(source, settings.machine, report());
-    settings.controller = checked(settings.controller, machine);
-    if (settings.wind) static_cast<void>(machine.require_air());
+    settings.controller = checked(settings.controller, machine, report());
+    if (!settings.wind->is_none()) static_cast<void>(machine.require_air());
     if (settings.controller.acts()) make_pitch_drives(settings.controller, machine.description);
+    take_operation(machine, settings, report());
     settings.rotor_speed = rotor_speed_of(settings.rotor_speed, machine, "SimulationSettings::rotor_speed", report());
     settings.machine.pitch = pitch_at_speed(settings.machine.pitch, machine, *settings.rotor_speed, report());
+    take_generator(machine, settings, report());
     title = title_of(machine, settings);
 }
 
@@ -110,7 +114,7 @@ void Simulation::Parts::resume(const std::filesystem::path& file, const RecordSe
 }
 
 Recording Simulation::Parts::record(const RecordSettings& o, solvers::HistoryRecording& into) {
-    std::vector<double> times = solvers::sample_times(0, o.duration, o.step);
+    std::vector<double> times = solvers::sample_times(0, duration_of(o, machine), o.step);
     times.erase(times.begin(), std::ranges::lower_bound(times, integrator->time()));
     const solvers::Advance end =
         solvers::record(*integrator, *recorder, times, [&](double time, const std::vector<double>& values) {
@@ -131,8 +135,8 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 Recording Simulation::record(const std::filesystem::path& file, const RecordSettings& settings) {
-    check(settings);
     Parts& p = *parts_;
+    check(settings, p.machine);
     if (settings.resume) {
         p.resume(file, settings);
         solvers::HistoryRecording into(file, *p.integrator, *p.recorder);
@@ -146,11 +150,15 @@ Recording Simulation::record(const std::filesystem::path& file, const RecordSett
 }
 
 Recording Simulation::record(const RecordSettings& settings) {
-    check(settings);
+    check(settings, parts_->machine);
     if (settings.resume)
         throw InputError("RecordSettings::resume", "file", "none", "the file of a run that was broken off");
     solvers::HistoryRecording into(parts_->title, *parts_->recorder);
     return parts_->record(settings, into);
+}
+
+double Simulation::duration(const RecordSettings& settings) const {
+    return duration_of(settings, parts_->machine);
 }
 
 const Machine& Simulation::machine() const {

@@ -52,6 +52,9 @@ public:
     /// Likewise in memory alone.
     Recording record(const RecordSettings& settings = {});
 
+    /// That record() would simulate, s.
+    double duration(const RecordSettings& settings = {}) const;
+
     /// As it runs, with the settings.
     const Machine& machine() const;
     /// With what was not given: rotor speed, pitch, elements, individual pitch.

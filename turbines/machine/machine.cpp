@@ -58,6 +58,7 @@ Machine machine_of(TurbineFile file) {
                          .tip_speed_ratio = file.operation.tip_speed_ratio,
                          .min_pitch = std::move(file.operation.least_pitch),
                          .source = std::move(file.operation.source)};
+    machine.run = std::move(file.run);
     machine.controller = std::move(file.controller);
     machine.notes = std::move(file.notes);
     return machine;

@@ -65,6 +65,7 @@ struct Machine {
     Site site = {};
     MachineOperation operation = {};
     ModelController controller = {};
+    std::optional<ModelRun> run = std::nullopt;  ///< in time, that its source describes
     std::optional<Aerodynamics> air = std::nullopt;
     std::string no_air = "the machine has no airfoils";  ///< why there is no air, in a clause
     std::vector<FileNote> notes = {};                    ///< of the reader; those on the air stand there

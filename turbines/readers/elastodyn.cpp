@@ -15,11 +15,10 @@ const std::vector<KeywordGroup>& ignored_by_elastodyn() {
          "output and numerical settings: without meaning for the machine"},
         {{"ShftGagL", "NcIMU*", "AzimB1Up"}, "places of sensors: without effect on the motion"},
         {{"FurlFile", "Furling"}, "furling is off"},
-        {{"Gravity"}, "gravity is given to the assembly"},
         {{"Teet*", "Delta3", "UndSling"}, "teetering: this machine has none"},
         {{"YawFrct*", "M_CSmax", "M_FCSmax", "M_MCSmax", "M_CD", "M_FCD", "M_MCD", "sig_v", "sig_v2", "OmgCut"},
          "friction of the yaw bearing: not part of the model"},
-        {{"Azimuth", "OoPDefl", "IPDefl", "TTDsp*"}, "initial conditions: those of a simulation are given to it here"},
+        {{"OoPDefl", "IPDefl", "TTDsp*"}, "initial conditions: those of a simulation are given to it here"},
         {{"PreCone*", "TipMass*", "BldFile*", "BlPitch*", "PBrIner*", "BlPIner*", "PitchDOF", "PtfmYDOF"},
          "of blades or joints that the machine does not have"}};
     return all;
@@ -316,9 +315,15 @@ private:
         if (speed < 0) file_.fail("RotSpeed", text("RotSpeed = ", speed, "; allowed: >= 0"));
         out_.rotor_speed = d_.rotor_speed = speed * units::rpm;
         out_.rotor_speed_source = text("RotSpeed of ", std::filesystem::path(file_.name()).filename().string());
-        file_.note_unless("NacYaw", 0, "the nacelle points into the wind here");
+        ModelRun& run = out_.run.emplace();
+        run.rotor_speed = speed * units::rpm;
+        if (!out_.pitch_source.empty()) run.pitch = out_.pitch;
+        if (file_.has("Azimuth")) run.azimuth = angle("Azimuth", 360);
+        run.gravity = file_.number_or("Gravity", units::standard_gravity) != 0;
+        if (file_.has("NacYaw")) run.yaw = angle("NacYaw", 180);
+        file_.note_unless("NacYaw", 0, "of the start of a run in time; else the nacelle points into the wind here");
         for (const char* keyword : {"OoPDefl", "IPDefl", "TTDspFA", "TTDspSS", "PtfmSurge", "PtfmSway", "PtfmHeave",
-                                    "PtfmRoll", "PtfmPitch", "PtfmYaw", "Azimuth", "TeetDefl"})
+                                    "PtfmRoll", "PtfmPitch", "PtfmYaw", "TeetDefl"})
             file_.note_unless(keyword, 0, "initial condition: those of a simulation are given to it here");
         for (const char* keyword : {"PtfmMass", "PtfmRIner", "PtfmPIner", "PtfmYIner", "PtfmXYIner", "PtfmYZIner",
                                     "PtfmXZIner", "PtfmCMxt", "PtfmCMyt", "PtfmCMzt", "PtfmRefzt"})

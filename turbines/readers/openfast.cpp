@@ -1,6 +1,7 @@
 #include "turbines/readers/openfast.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "turbines/readers/beamdyn.hpp"
 #include "turbines/readers/elastodyn.hpp"
 #include "turbines/readers/servodyn.hpp"
@@ -55,6 +56,19 @@ std::string missing_foundation(OpenFastFile& main, const std::string& of_elastod
     return main.number_or("CompHydro", 0) != 0 ? "part under water" : "";
 }
 
+// What the main file runs; how it starts is ElastoDyn's to say.
+void set_run(OpenFastFile& main, ModelRun& run) {
+    const auto absolute = [](const std::filesystem::path& path) {
+        return std::filesystem::absolute(path).lexically_normal().string();
+    };
+    run.file = absolute(main.name());
+    if (main.has("TMax")) run.duration = main.number("TMax");
+    run.air = main.number_or("CompAero", 0) != 0;
+    if (run.air && main.number_or("CompInflow", 0) != 0) run.wind = absolute(main.path("InflowFile"));
+    run.controlled = main.number("CompServo") != 0;
+    if (main.has("Gravity")) run.gravity = main.number("Gravity") != 0;
+}
+
 // The controller knows how the blades stand in operation; ElastoDyn, how they start.
 void set_operation(TurbineFile& out, const ServoDyn& servo) {
     if (servo.rated_generator_speed > 0) {
@@ -75,7 +89,11 @@ void set_operation(TurbineFile& out, const ServoDyn& servo) {
 
 TurbineFile read_openfast(const std::filesystem::path& path) {
     OpenFastFile main = OpenFastFile::read(path);
-    if (!main.has("EDFile") && main.has("NumBl")) return read_elastodyn(path);
+    if (!main.has("EDFile") && main.has("NumBl")) {
+        TurbineFile alone = read_elastodyn(path);
+        alone.run.reset();
+        return alone;
+    }
     if (!main.has("EDFile"))
         throw ParseError(path.string(), 1, 0,
                          "neither a main file of OpenFAST (no line with the keyword EDFile) nor one of ElastoDyn (none "
@@ -92,6 +110,7 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     if (kind == 2) read_blades(main, elastodyn, context);
     TurbineFile out = main.follow("EDFile", [&] { return read_elastodyn(elastodyn, context); });
     out.description.name = main.machine_name();
+    set_run(main, *out.run);
     std::string& foundation = out.description.missing_foundation.name;
     foundation = missing_foundation(main, foundation);
     for (const char* keyword : {"CompHydro", "CompSub", "CompMooring", "CompIce"})

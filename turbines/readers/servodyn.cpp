@@ -7,6 +7,7 @@
 #include "turbines/readers/openfast_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cardan::turbines {
 
@@ -42,6 +43,23 @@ GeneratorSpeed of_induction_generator(OpenFastFile& file) {
     return {};
 }
 
+// Near the synchronous speed: the simple one (GenModel 1), or by Thevenin's equivalent circuit (2). Without its numbers
+// there is none.
+SlippingGenerator slipping_generator(OpenFastFile& file) {
+    const auto of = [&file](const char* keyword) { return file.number_or(keyword, 0); };
+    const double model = of("GenModel");
+    if (model == 1 && of("SIG_SySp") > 0 && of("SIG_SlPc") > 0) {
+        const double speed = of("SIG_SySp") * units::rpm;
+        return {speed, of("SIG_RtTq") / (speed * of("SIG_SlPc") / 100)};
+    }
+    if (model != 2 || !(of("TEC_NPol") > 0) || !(of("TEC_Freq") > 0) || !(of("TEC_RRes") > 0)) return {};
+    const double speed = 4 * pi * of("TEC_Freq") / of("TEC_NPol"), magnetising = of("TEC_MR"),
+                 circuit = std::hypot(of("TEC_SRes"), of("TEC_SLR") + magnetising);
+    if (!(circuit > 0)) return {};
+    const double voltage = of("TEC_VLL") * magnetising / circuit;  // line to line, behind the circuit
+    return {speed, voltage * voltage / (speed * speed * of("TEC_RRes"))};
+}
+
 // 3 and others are routines of the user's.
 enum class Control : std::uint8_t { generator_model = 0, torque_law = 1, controller = 5 };
 
@@ -69,6 +87,7 @@ ModelController controller_of(OpenFastFile& file, bool acts) {
     const double efficiency = file.number_or("GenEff", 0) / 100;
     if (efficiency > 0 && efficiency <= 1) controller.generator_efficiency = efficiency;
     controller.individual_pitch = file.has("Ptch_Cntrl") && file.integer("Ptch_Cntrl", 0, 1) == 1;
+    if (file.number_or("VSContrl", 0) == 0) controller.generator = slipping_generator(file);
     if (!acts) return controller;
     const auto path = [&file](const char* keyword) {
         if (!file.has(keyword) || file.word(keyword).empty()) return std::string();
@@ -112,6 +131,10 @@ ServoDyn read_servodyn(const std::filesystem::path& path) {
     for (const char* keyword : {"CompNTMD", "CompTTMD"})
         if (file.flag_or(keyword, false)) file.note(keyword, "tuned mass dampers are not part of the model");
     servo.controller = controller_of(file, needed);
+    if (controller) {
+        servo.controller.gains = gains_of(*controller);
+        servo.controller.gains.source = servo.operation.source;
+    }
     servo.notes = file.notes({{{"*"}, "control, brakes and electrical drive: not part of the description"}});
     servo.source = text("# ", path.string(), "\n", file.text());
     return servo;

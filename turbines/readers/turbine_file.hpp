@@ -52,6 +52,36 @@ struct FileOperation {
     std::string source = {};  ///< name of the file
 };
 
+/// Gains of a pitch controller at a pitch: pitch demand over the speed of the generator above its reference.
+struct PitchGain {
+    double pitch = 0;         ///< leading edge upwind, rad
+    double proportional = 0;  ///< s
+    double integral = 0;
+};
+
+/// Numbers of a controller of variable speed and pitch, on the shaft of the generator; 0 and empty: the file does not
+/// say.
+struct ControllerGains {
+    double corner_frequency = 0;              ///< of the filter of the generator's speed, rad/s
+    double min_speed = 0, rated_speed = 0;    ///< of the generator, rad/s
+    double optimal_gain = 0;                  ///< torque over the square of the speed, N m s^2/rad^2
+    double rated_torque = 0;                  ///< N m
+    double max_torque = 0;                    ///< N m
+    double max_torque_rate = 0;               ///< N m/s
+    bool constant_power = true;               ///< above rated speed; false: constant torque
+    std::vector<PitchGain> pitch_gains = {};  ///< rising
+    double min_pitch = 0, max_pitch = 0;      ///< rad
+    double max_pitch_rate = 0;                ///< rad/s
+    std::string source = {};                  ///< name of the file; empty: there is none
+};
+
+/// A generator whose torque rises with the speed of its shaft: slope (speed - no_load_speed). Without slope there is
+/// none.
+struct SlippingGenerator {
+    double no_load_speed = 0;  ///< rad/s
+    double slope = 0;          ///< N m s/rad
+};
+
 /// The controller of a machine, as its files name it; 0 and empty: they do not.
 struct ModelController {
     std::string library = {};         ///< absolute path of a shared library with Bladed's function DISCON
@@ -59,6 +89,24 @@ struct ModelController {
     double period = 0;                ///< between its calls, s
     double generator_efficiency = 0;  ///< electrical over mechanical power, 0 ... 1
     bool individual_pitch = false;    ///< it demands the pitch of every blade (Ptch_Cntrl of ServoDyn)
+    ControllerGains gains = {};       ///< of a ROSCO controller's file
+    /// Where no controller sets the torque: an induction generator near its synchronous speed (GenModel of ServoDyn).
+    SlippingGenerator generator = {};
+};
+
+/// The run in time that a model describes beside the machine, as its main file has it. Where the files do not say:
+/// empty, or no value.
+struct ModelRun {
+    bool air = false;                        ///< the blades are in the air
+    std::string wind = {};                   ///< absolute path of InflowWind's main file; empty: the air is still
+    bool controlled = false;                 ///< the model's controller or generator acts
+    std::optional<double> duration = {};     ///< s
+    std::optional<double> rotor_speed = {};  ///< at the start, rad/s
+    std::optional<double> pitch = {};        ///< of blade 1 at the start, leading edge upwind, rad
+    std::optional<double> azimuth = {};      ///< of blade 1 at the start, rad
+    std::optional<double> yaw = {};          ///< of the nacelle at the start, rad
+    bool gravity = true;
+    std::string file = {};  ///< absolute path of the main file
 };
 
 /// Keyword of the note on angles and ratios that machines do not have: see admit_unusual().
@@ -79,6 +127,7 @@ struct TurbineFile {
     std::vector<PitchAt> pitch_schedule;
     FileOperation operation = {};
     ModelController controller = {};
+    std::optional<ModelRun> run = std::nullopt;
     /// Of the tower's foot above the ground or the still water, m, as the files count heights; none: they do not say.
     std::optional<double> tower_foot = std::nullopt;
 };

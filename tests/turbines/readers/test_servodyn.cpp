@@ -114,3 +114,32 @@ TEST_CASE("servodyn: the pitch below rated power is that of the controller", "[a
     CHECK(constant.pitch_source == "PC_FinePit of DISCON.IN");
     CHECK_THROWS_AS(pitch_at(std::vector<PitchAt>(), 1), InputError);
 }
+
+TEST_CASE("servodyn: gains of a ROSCO controller are kept, those of the pitch positive", "[analytic]") {
+    const test::ModelFolder model("openfast");
+    model.replace("small_ServoDyn.dat", "             1   VSContrl ",
+                  "\"DISCON.IN\" DLL_InFile\n             5   VSContrl ");
+    model.write("DISCON.IN",
+                "0.05 0.2 ! PC_GS_angles - rad\n-0.02 0.004 ! PC_GS_KP - s\n-0.003 -0.001 ! PC_GS_KI\n"
+                "1.5 ! PC_MaxPit\n-0.02 ! PC_MinPit\n0.1 ! PC_MaxRat\n122.9 ! PC_RefSpd\n70 ! VS_MinOMSpd\n"
+                "2.3 ! VS_Rgn2K\n43000 ! VS_RtTq\n47000 ! VS_MaxTq\n15000 ! VS_MaxRat\n0 ! VS_ConstPower\n"
+                "1.57 ! F_LPFCornerFreq\n");
+    const ControllerGains gains = read_servodyn(model / "small_ServoDyn.dat").controller.gains;
+    REQUIRE(gains.pitch_gains.size() == 2);
+    CHECK(gains.pitch_gains[0].pitch == 0.05);
+    CHECK(gains.pitch_gains[0].proportional == 0.02);
+    CHECK(gains.pitch_gains[1].proportional == -0.004);
+    CHECK(gains.pitch_gains[1].integral == 0.001);
+    CHECK(gains.rated_speed == 122.9);
+    CHECK(gains.min_speed == 70);
+    CHECK(gains.optimal_gain == 2.3);
+    CHECK(gains.rated_torque == 43000);
+    CHECK(gains.max_torque == 47000);
+    CHECK(gains.max_torque_rate == 15000);
+    CHECK(gains.min_pitch == -0.02);
+    CHECK(gains.max_pitch == 1.5);
+    CHECK(gains.max_pitch_rate == 0.1);
+    CHECK(gains.corner_frequency == 1.57);
+    CHECK_FALSE(gains.constant_power);
+    CHECK(gains.source == "DISCON.IN");
+}

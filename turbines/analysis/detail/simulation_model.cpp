@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/analysis/controlled_machine.hpp"
+#include "turbines/analysis/detail/model_run.hpp"
 #include "turbines/analysis/detail/run_loads.hpp"
 #include "turbines/analysis/machine_wind.hpp"
 #include "turbines/analysis/steady_rotation.hpp"
@@ -29,7 +30,7 @@ Pair in_the_air(const Turbine& machine, const std::optional<MachineAir>& air) {
 
 std::optional<MachineAir> air_on(const Turbine& turbine, const Machine& machine, const SimulationSettings& o,
                                  const Report& report) {
-    if (!o.wind) return std::nullopt;
+    if (o.wind->is_none()) return std::nullopt;
     const Aerodynamics air = air_of(machine, o.air);
     report_remark(report, {Remark::Kind::taken, text("air of the run: ", air_in_equilibrium(air))});
     const SteadyWind profile = wind_profile(turbine, machine, o.air, air.density);
@@ -145,9 +146,9 @@ SimulationState start_of(const Turbine& at_start, const SimulationSettings& o, c
     const System& system = at_start.system();
     const int spin = at_start.rotor().spin;
     std::optional<SimulationState> start;
-    if (o.start == SimulationStart::steady) start = steady_start(at_start, *o.rotor_speed, o.azimuth, report);
+    if (o.start == SimulationStart::steady) start = steady_start(at_start, *o.rotor_speed, *o.azimuth, report);
     if (!start) start = {Vector::Zero(system.model.size()), Vector::Zero(system.model.size())};
-    start->q(spin) = o.azimuth;
+    start->q(spin) = *o.azimuth;
     start->qd(spin) = *o.rotor_speed;
     const CoordinateTable& table = system.model.coordinates();
     set_named(o.q, "SimulationSettings::q", table, start->q);

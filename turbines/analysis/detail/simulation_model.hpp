@@ -20,7 +20,7 @@ struct SimulationModel {
     std::string wind = {};                    ///< as text, for the file of the run
 };
 /// @param machine  with_settings(), with its pitch drives
-/// @param options  with rotor speed and pitch
+/// @param options  with rotor speed, pitch, wind and azimuth: take_run()
 /// @param mesh     out
 SimulationModel simulation_model(const Machine& machine, const SimulationSettings& options, Mesh& mesh,
                                  const Report& report);

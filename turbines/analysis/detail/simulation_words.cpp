@@ -44,15 +44,15 @@ std::string in_words(const SimulationSettings& o) {
     for (const auto& [name, value] : o.qd) changed += text(", qd ", name, "=", digits(value));
     if (o.controller.acts()) changed += ", " + in_words(o.controller);
     if (o.rotor_torque.acts()) changed += ", " + in_words(o.rotor_torque);
-    if (o.wind) changed += wind_in_words(o);
+    if (!o.wind->is_none()) changed += wind_in_words(o);
     return text("start ", o.start == SimulationStart::steady ? "steady" : "undeformed", " at ", *o.rotor_speed,
-                " rad/s, azimuth ", o.azimuth * units::to_degrees, " deg", changed, ", method ", name_of(o.method),
+                " rad/s, azimuth ", *o.azimuth * units::to_degrees, " deg", changed, ", method ", name_of(o.method),
                 ", order ", o.max_order, ", tolerance ", o.tolerance);
 }
 
 void check(const SimulationSettings& o) {
     require_positive("SimulationSettings::tolerance", "value", o.tolerance);
-    for (const auto& [field, value] : {std::pair("SimulationSettings::azimuth", o.azimuth),
+    for (const auto& [field, value] : {std::pair("SimulationSettings::azimuth", o.azimuth.value_or(0)),
                                        {"SimulationSettings::generator_torque", o.generator_torque.value_or(0)},
                                        {"SimulationSettings::generator_slope", o.generator_slope}})
         if (!std::isfinite(value)) throw InputError(field, "value", value, "finite");

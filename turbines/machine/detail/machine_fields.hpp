@@ -134,6 +134,39 @@ void operation_fields(Archive& archive, Operating& o) {
     archive.optional_word("source", o.source);
 }
 
+template <class Archive, class Gains>
+void gains_fields(Archive& archive, Gains& g) {
+    archive.optional_number("corner_frequency", g.corner_frequency);
+    archive.optional_number("min_speed", g.min_speed);
+    archive.optional_number("rated_speed", g.rated_speed);
+    archive.optional_number("optimal_gain", g.optimal_gain);
+    archive.optional_number("rated_torque", g.rated_torque);
+    archive.optional_number("max_torque", g.max_torque);
+    archive.optional_number("max_torque_rate", g.max_torque_rate);
+    archive.optional_flag("constant_power", g.constant_power);
+    archive.optional_rows(
+        "pitch_gains", g.pitch_gains,
+        {{"pitch", &PitchGain::pitch}, {"proportional", &PitchGain::proportional}, {"integral", &PitchGain::integral}});
+    archive.optional_number("min_pitch", g.min_pitch);
+    archive.optional_number("max_pitch", g.max_pitch);
+    archive.optional_number("max_pitch_rate", g.max_pitch_rate);
+    archive.optional_word("source", g.source);
+}
+
+template <class Archive, class Run>
+void run_fields(Archive& archive, Run& r) {
+    archive.optional_flag("air", r.air);
+    archive.optional_word("wind", r.wind);
+    archive.optional_flag("controlled", r.controlled);
+    archive.optional_number("duration", r.duration);
+    archive.optional_number("rotor_speed", r.rotor_speed);
+    archive.optional_number("pitch", r.pitch);
+    archive.optional_number("azimuth", r.azimuth);
+    archive.optional_number("yaw", r.yaw);
+    archive.optional_flag("gravity", r.gravity);
+    archive.optional_word("file", r.file);
+}
+
 /// The keys are `machine_keys`.
 template <class Archive, class AnyMachine, class Air>
 void machine_fields(Archive& archive, AnyMachine& m, Air& air) {
@@ -150,7 +183,14 @@ void machine_fields(Archive& archive, AnyMachine& m, Air& air) {
         archive.optional_number("period", m.controller.period);
         archive.optional_number("generator_efficiency", m.controller.generator_efficiency);
         archive.optional_flag("individual_pitch", m.controller.individual_pitch);
+        archive.group_if(!m.controller.gains.source.empty(), "gains",
+                         [&] { gains_fields(archive, m.controller.gains); });
+        archive.group_if(m.controller.generator.slope != 0, "generator", [&] {
+            archive.number("no_load_speed", m.controller.generator.no_load_speed);
+            archive.number("slope", m.controller.generator.slope);
+        });
     });
+    archive.optional_group("run", m.run, [&](auto& run) { run_fields(archive, run); });
     archive.optional_group("air", air, [&](auto& fields) { air_fields(archive, fields); });
     archive.optional_word("no_air", m.no_air);
 }

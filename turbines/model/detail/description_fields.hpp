@@ -154,7 +154,7 @@ void description_fields(Archive& archive, Description& d) {
 }
 
 /// Keys of a file beside those of the description, since version 3: the rest of a machine.
-inline constexpr std::array machine_keys{"yaw_drive", "site", "operation", "controller", "air", "no_air"};
+inline constexpr std::array machine_keys{"yaw_drive", "site", "operation", "controller", "run", "air", "no_air"};
 
 /// A column of a table with a row of numbers for each entry.
 template <class Row>

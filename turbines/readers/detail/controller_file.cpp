@@ -56,6 +56,28 @@ FileOperation operation_of(const ControllerFile& file) {
     return out;
 }
 
+ControllerGains gains_of(const ControllerFile& file) {
+    const auto of = [&](const char* keyword) { return std::max(0.0, file.number(keyword).value_or(0)); };
+    ControllerGains out;
+    out.corner_frequency = of("F_LPFCornerFreq");
+    out.min_speed = of("VS_MinOMSpd");
+    out.rated_speed = of("PC_RefSpd");
+    out.optimal_gain = of("VS_Rgn2K");
+    out.rated_torque = of("VS_RtTq");
+    out.max_torque = of("VS_MaxTq");
+    out.max_torque_rate = of("VS_MaxRat");
+    out.constant_power = file.number("VS_ConstPower").value_or(1) != 0;
+    out.min_pitch = file.number("PC_MinPit").value_or(0);
+    out.max_pitch = of("PC_MaxPit");
+    out.max_pitch_rate = of("PC_MaxRat");
+    const std::vector<double> pitch = file.numbers("PC_GS_angles"), proportional = file.numbers("PC_GS_KP"),
+                              integral = file.numbers("PC_GS_KI");
+    if (pitch.size() != proportional.size() || pitch.size() != integral.size()) return out;
+    for (std::size_t i = 0; i < pitch.size(); ++i)
+        out.pitch_gains.push_back({pitch[i], -proportional[i], -integral[i]});
+    return out;
+}
+
 std::vector<PitchAt> minimum_pitch(const ControllerFile& file) {
     const auto of = [&](const char* keyword) { return file.number(keyword).value_or(0); };
     const double ratio = of("VS_TSRopt"), radius = of("WE_BladeRadius"), gears = of("WE_GearboxRatio");

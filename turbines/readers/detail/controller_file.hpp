@@ -33,4 +33,8 @@ std::vector<PitchAt> minimum_pitch(const ControllerFile& file);
 /// VS_RtPwr over VS_GenEff, VS_MinOMSpd, VS_TSRopt, PS_BldPitchMin over PS_WindSpeeds.
 FileOperation operation_of(const ControllerFile& file);
 
+/// Gains and limits of pitch and torque. Gains that lower the pitch as the speed rises, as ROSCO has them, are positive
+/// here.
+ControllerGains gains_of(const ControllerFile& file);
+
 }  // namespace cardan::turbines
