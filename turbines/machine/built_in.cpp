@@ -63,9 +63,10 @@ Machine nrel5mw_machine(TurbineDescription description, Beams blades, Beams towe
     machine.operation.min_speed = 6.9 * units::rpm;
     machine.operation.source = "the report";
     machine.controller.generator_efficiency = efficiency;
-    machine.air = Aerodynamics{.blade = nrel5mw_aero_blade(),
-                               .unsteady_airfoils = nrel5mw_unsteady_profiles(),
-                               .torsion_sweep = nrel5mw_aero_blade(Nrel5mwCentres::report).sweep};
+    Aerodynamics& air = machine.air.emplace();
+    air.blade = nrel5mw_aero_blade();
+    air.unsteady_airfoils = nrel5mw_unsteady_profiles();
+    air.torsion_sweep = nrel5mw_aero_blade(Nrel5mwCentres::report).sweep;
     machine.no_air.clear();
     return machine;
 }
