@@ -3,12 +3,15 @@
 #include "mbs/kernels/metric.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/linearise.hpp"
+#include "solvers/time/recorder.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/refusal.hpp"
 #include "turbines/machines/wt600_operation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 using namespace cardan;
@@ -102,6 +105,54 @@ TEST_CASE("wt600 operation: without grid, brake and wind it is the machine with 
     CHECK(more(spin, spin) == Approx(2500 * 6e3 / 1 + kloss).epsilon(1e-9));
     more(spin, spin) = 0;
     CHECK(more.norm() < 1e-9 * b.damping.norm());
+}
+
+TEST_CASE(
+    "wt600 operation: off the grid, in feather and on the brake it stands, and the recorded powers are the work of "
+    "all loads",
+    "[property]") {
+    const Wt600Operation machine =
+        wt600_operation({.assembly = wt600_paper_assembly(1), .generator = Wt600Generator::converter});
+    const System& system = machine.turbine.system();
+    const solvers::SteadyState start =
+        solvers::steady_state(system, machine.turbine.rotor().spin, {.rotor_speed = wt600_rated_speed()});
+    REQUIRE(start.converged);
+    solvers::Integrator integrator(system, {}, 0, start.at.q, start.at.qd, {});
+    solvers::Recorder recorder(integrator, machine.channels);
+    solvers::History history;
+    const double step = 0.01;
+    const auto run = [&](double from, double to) {
+        REQUIRE(solvers::record(integrator, recorder, solvers::sample_times(from, to, step), history).reached());
+    };
+    run(0, 1);
+    machine.grid->turn(false, 1);
+    integrator.restart();
+    run(1 + step, 2);
+    machine.pitch->move_to(pi / 2, 2);
+    integrator.restart();
+    run(2 + step, 14);
+    machine.brake_valve->turn(true, 14);
+    integrator.restart();
+    run(14 + step, 18);
+    const auto at = [&](double time) { return static_cast<std::size_t>(std::lround(time / step)); };
+    const std::vector<double>& speed = history["RotSpeed"];
+    CHECK(speed[at(1)] == Approx(speed[0]).epsilon(1e-5));  // rated operation is an equilibrium
+    CHECK(speed[at(2)] > 1.03 * speed[0]);
+    CHECK(std::abs(speed.back()) < 0.02 * speed[at(14)]);
+
+    const double kinetic = std::ranges::max(history["kinetic energy"]);
+    const auto work = [&](const std::string& channel) {
+        const std::vector<double>& power = history[channel];
+        double sum = 0;
+        for (std::size_t i = 1; i < power.size(); ++i) sum += step * (power[i - 1] + power[i]) / 2;
+        return sum / kinetic;
+    };
+    double recorded = work("rotor load power") - work("generator power") - work("brake power");
+    for (int k = 1; k <= 3; ++k) recorded += work(text("blade ", k, " pitch drive power"));
+    CHECK(work("brake power") > 0.05);
+    // Of the work of the thrust, on the way of the tower's top, there is no channel.
+    CHECK(integrator.energy().loads / kinetic == Approx(recorded).margin(5e-3));
+    CHECK(std::abs(integrator.energy().error) < 1e-5 * kinetic);
 }
 
 TEST_CASE("wt600 operation: a command turns all blades toward feather, against their coordinates", "[property]") {
