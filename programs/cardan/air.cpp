@@ -22,7 +22,7 @@ void add_air_options(CommandLine& app, AirArguments& a) {
     app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left");
     app.add_option("--upflow", a.upflow, "of the wind, deg");
     app.add_flag("--no-tower", a.no_tower,
-                 "without the wind that the tower dams, and the air's drag on tower and nacelle");
+                 "without the tower's influence on the wind, and the air's drag on tower and nacelle");
     app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake");
 }
 

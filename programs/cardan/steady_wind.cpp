@@ -82,6 +82,8 @@ int steady_in_wind(const turbines::Machine& machine, MachineOptions& options, co
             "%d harmonics of the revolution; what those left out would have to balance, over stiffness: up to "
             "%.1e rad or m\n",
             revolution.harmonics, run.truncation_residual);
+    if (run.truncation_residual > 1e-4)
+        std::printf("that is little for means, but much for the least and largest loads: take more, --harmonics\n");
     if (run.complete) tell_mesh(run, results, revolution);
     print(results);
     std::printf("\nfiles: %s.h5, .csv, _sections.csv", prefix.c_str());

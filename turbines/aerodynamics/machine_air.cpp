@@ -51,7 +51,7 @@ MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind
         parts->radius = std::max(parts->radius, parts->profile->position.back() * coned);
         parts->bodies.insert(parts->bodies.end(), own.path.begin(), own.path.end());
     }
-    if (support.tower.has_dam()) parts->dam = dam_parts(turbine, support.tower);
+    if (support.tower.has_influence()) parts->influence = influence_parts(turbine, support.tower);
     parts->trunk = path_to(model, hub.body);
     std::sort(parts->bodies.begin(), parts->bodies.end());
     parts->bodies.erase(std::unique(parts->bodies.begin(), parts->bodies.end()), parts->bodies.end());
@@ -199,8 +199,11 @@ const Wind& MachineAir::wind() const {
 const TowerAir& MachineAir::support() const {
     return parts_->support;
 }
-bool MachineAir::has_dam() const {
-    return parts_->dam.has_value();
+bool MachineAir::has_tower_influence() const {
+    return parts_->influence.has_value();
+}
+int MachineAir::least_azimuths() const {
+    return has_tower_influence() ? 144 : 1;
 }
 
 }  // namespace cardan::turbines

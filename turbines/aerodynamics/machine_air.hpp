@@ -38,10 +38,10 @@ struct AirLagOptions {
 class MachineAir {
 public:
     /// @param blade  of all blades; its first section lies at the blade's root, its last one at the tip
-    /// @param support  drag of tower and nacelle, and the wind that the tower dams before the sections. Dammed is the
-    ///                 wind across the tower's axis where it is next to the section, less the velocity of the tower;
-    ///                 the mean wind of a skewed wake counts it. Beyond the tower's top the dam fades to nothing over a
-    ///                 radius [AeroDyn]. Exact derivatives.
+    /// @param support  drag of tower and nacelle, and the influence of the tower on the wind at the sections: of the
+    ///                 part of the wind across the tower's axis where it is next to the section, less the velocity of
+    ///                 the tower. The mean wind of a skewed wake counts it. Beyond the tower's top it fades to nothing
+    ///                 over a radius [AeroDyn]. Exact derivatives.
     /// @throws InputError for a machine without blades, sections beyond the ends of the blade, and as
     /// AeroBlade::check() and TowerAir
     MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind, const RotorAirOptions& options = {},
@@ -101,8 +101,11 @@ public:
     double radius() const;  ///< of the rotor that is not bent, m
     const AeroBlade& blade() const;
     const Wind& wind() const;
-    const TowerAir& support() const;  ///< drag of tower and nacelle
-    bool has_dam() const;             ///< the tower changes the wind at the sections
+    const TowerAir& support() const;   ///< drag of tower and nacelle
+    bool has_tower_influence() const;  ///< the tower changes the wind at the sections
+    /// Of a revolution, that means and harmonics need: with the tower's influence 144, for it is over within a few
+    /// degrees (blades that are 120 deg apart see the tower from the same azimuths), else 1.
+    int least_azimuths() const;
 
 private:
     struct Parts;

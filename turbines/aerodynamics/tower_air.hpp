@@ -27,8 +27,8 @@ namespace cardan::turbines {
 /// Immutable, cheap to copy, may be used by several threads.
 class TowerAir {
 public:
-    /// The wind is that of the open field. A dam is no matter of the tower's own forces, but of the rotor's:
-    /// MachineAir.
+    /// The wind is that of the open field. What the tower does to it is no matter of its own forces, but of the
+    /// rotor's: MachineAir.
     /// @throws InputError for drag of a tower or a nacelle that the machine does not have, rows beyond the ends of the
     /// tower, and as AeroTower::check() and AeroNacelle::check()
     TowerAir(const Turbine& turbine, const AeroSupport& support, const Wind& wind);

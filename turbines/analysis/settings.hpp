@@ -63,7 +63,7 @@ struct AirSettings {
     double upflow = 0;                   ///< of the wind above the horizontal, rad
     std::optional<double> density = {};  ///< kg/m^3; none: that of the airfoils' file
     bool skewed_wake = true;             ///< the induction is redistributed in a skewed wake
-    bool tower_nacelle = true;           ///< the wind that the tower dams, and the drag of tower and nacelle
+    bool tower_nacelle = true;           ///< the tower's influence on the wind, and the drag of tower and nacelle
     bool induction = true;               ///< false: the rotor induces no velocities
 };
 

@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -121,6 +122,7 @@ solvers::PeriodicSteadyState steady_state(const AeroelasticPoint& point, double 
     options.rotor_speed = rotor_speed;
     options.harmonics = harmonics;
     options.more_harmonics = true;
+    if (point.air.has_tower_influence()) options.samples = std::max(4 * (harmonics + 1), point.air.least_azimuths());
     options.start = point.start;
     options.state_start = point.state_start;
     options.rotor = &rotor;

@@ -80,13 +80,14 @@ WindOperation::WindOperation(TurbineDescription description, AssemblyOptions opt
     : description_(std::move(description)),
       options_(std::move(wind)),
       constant_(is_isotropic(description_, options) && is_constant_in(options_.wind) &&
-                !options_.support.tower.has_dam()) {
+                !options_.support.tower.has_influence()) {
     options.pitch = 0;
     options.pitch_drives = true;
     turbine_ = assemble(description_, options);
     air_.emplace(*turbine_, blade, options_.wind, options_.air, options_.support);
     if (options_.harmonics < 1) throw InputError("operation in the wind", "harmonics", options_.harmonics, ">= 1");
     if (options_.azimuths < 1) throw InputError("operation in the wind", "azimuths", options_.azimuths, ">= 1");
+    options_.azimuths = std::max(options_.azimuths, air_->least_azimuths());
 }
 
 double WindOperation::radius() const {
@@ -136,8 +137,7 @@ WindPoint WindOperation::solve(const Operation& operation, const Matrix& start) 
             solvers::PeriodicOptions periodic;
             periodic.rotor_speed = operation.rotor_speed;
             periodic.harmonics = options_.harmonics;
-            // A dam is narrow: a few degrees before the tower.
-            if (air.has_dam()) periodic.samples = std::max(4 * (options_.harmonics + 1), options_.azimuths);
+            if (air.has_tower_influence()) periodic.samples = std::max(4 * (options_.harmonics + 1), options_.azimuths);
             periodic.start = from;
             periodic.rotor = &windy.rotor();
             const solvers::PeriodicSteadyState found = solvers::harmonic_balance(windy.system(), spin, periodic);

@@ -80,12 +80,12 @@ struct WindOperationOptions {
     /// Of a revolution. A state is constant only where the wind is uniform, the shaft level and held (a tower that
     /// bends tilts it), and there is no gravity.
     int harmonics = 6;
-    /// Of a revolution, for means and WindPoint::revolution. With a tower that dams the wind also those at which the
-    /// harmonics are balanced, and 72 at least should be asked for: what it does is over within a few degrees.
+    /// Of a revolution, for means and WindPoint::revolution. With a tower that changes the wind at least
+    /// MachineAir::least_azimuths(), and the harmonics are balanced at as many.
     int azimuths = 24;
     /// Called after every point; false: no further ones.
     std::function<bool(const WindPoint&)> progress = {};
-    AeroSupport support = {};  ///< air on tower and nacelle; a tower that dams the wind makes states periodic
+    AeroSupport support = {};  ///< air on tower and nacelle; a tower that changes the wind makes states periodic
 };
 
 /// One per thread.

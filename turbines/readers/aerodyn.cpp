@@ -75,20 +75,34 @@ void read_skew(OpenFastFile& file, RotorAirOptions& options) {
             file.note(factor, "15 pi / 32 here");
 }
 
+// A switch of 0, 1, 2 that older files have as a flag, True being 1.
+int switch_or_flag(OpenFastFile& file, const char* keyword) {
+    if (!file.has(keyword)) return 0;
+    const std::string word = file.word(keyword);
+    const bool is_number = word.find_first_of("0123456789") != std::string::npos;
+    return is_number ? file.integer(keyword, 0, 2) : static_cast<int>(file.flag(keyword));
+}
+
 AeroTower read_tower(OpenFastFile& file) {
     AeroTower tower;
-    constexpr std::array dams{TowerDam::none, TowerDam::potential, TowerDam::bak};
-    tower.dam = entry(dams, file.has("TwrPotent") ? file.integer("TwrPotent", 0, 2) : 0);
+    constexpr std::array influences{TowerInfluence::none, TowerInfluence::potential, TowerInfluence::bak};
+    constexpr std::array shadows{TowerShadow::none, TowerShadow::powles, TowerShadow::eames};
+    tower.influence = entry(influences, switch_or_flag(file, "TwrPotent"));
+    tower.shadow = entry(shadows, switch_or_flag(file, "TwrShadow"));
     tower.loads = file.flag_or("TwrAero", false);
-    if (!tower.loads && tower.dam == TowerDam::none) return tower;
+    if (!tower.loads && !tower.asks_for_influence()) return tower;
     const OpenFastTable t = file.table("TwrElev", static_cast<std::size_t>(file.integer("NumTwrNds", 2, 100000)));
     tower.height = t.column("TwrElev");
     tower.diameter = t.column("TwrDiam");
     tower.drag = t.column("TwrCd");
+    if (tower.shadow == TowerShadow::eames) tower.turbulence = t.column("TwrTI");
     for (std::size_t i = 0; i < t.rows(); ++i) {
         if (i > 0 && !(tower.height[i] > tower.height[i - 1])) t.fail(i, "TwrElev; allowed: ascending");
         if (!(tower.diameter[i] > 0)) t.fail(i, text("TwrDiam = ", tower.diameter[i], "; allowed: > 0"));
         if (!(tower.drag[i] >= 0)) t.fail(i, text("TwrCd = ", tower.drag[i], "; allowed: >= 0"));
+        const double turbulence = tower.turbulence.empty() ? 0.1 : tower.turbulence[i];
+        if (!(turbulence > 0 && turbulence < 1))
+            t.fail(i, text("TwrTI = ", turbulence, "; allowed with TwrShadow = 2: more than 0, less than 1"));
     }
     return tower;
 }
@@ -185,7 +199,7 @@ void keep_steady(OpenFastFile& file, AeroDynFile& out) {
 
 const std::vector<KeywordGroup>& ignored_by_aerodyn() {
     static const std::vector<KeywordGroup> all{
-        {{"*"}, "numerical settings, output, shadow of the tower: without meaning for the air on blades here"}};
+        {{"*"}, "numerical settings, output: without meaning for the air on blades here"}};
     return all;
 }
 
@@ -208,7 +222,6 @@ AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, d
                             .rotation = file.flag("TanInd"),
                             .tangential_drag = file.flag("TIDrag")};
     out.support = {read_tower(file), read_nacelle(file)};
-    if (file.number_or_default("TwrShadow", 0) != 0) file.note("TwrShadow", "the tower has no shadow here");
     out.unsteady = read_unsteady(file);
     out.profiles = read_profiles(file, out.notes);
     if (out.unsteady && std::ranges::any_of(out.profiles, [](const auto& one) { return one.polar().over_reynolds(); }))

@@ -29,11 +29,10 @@ struct AeroDynFile {
 
 /// The main file, all versions of AeroDyn 15, with the files it names. Taken as they are: induction, tip and hub
 /// losses, a' and drag in the balances, Pitt and Peters' skewed wake, pitching moments, polars over the Reynolds number
-/// (AFTabMod 2, KinVisc), drag of tower and nacelle, potential flow around the tower, data of unsteady profiles for
+/// (AFTabMod 2, KinVisc), drag of tower and nacelle, flow around the tower and its wake, data of unsteady profiles for
 /// four states (UA_Mod 4), of the first table of each polar; what they leave out is found as AeroDyn does
 /// (attached_flow()). Noted: other unsteady profiles, unsteady data that do not fit their polar, dynamic wake, free
-/// vortices, shadow of the tower, polars over UserProp (AFTabMod 3: the first table of each is used), blades that
-/// differ.
+/// vortices, polars over UserProp (AFTabMod 3: the first table of each is used), blades that differ.
 /// @param hub_radius  places of the sections are given from the blade's root, m
 /// @param density     where the file says "default", kg/m^3
 /// @param viscosity   likewise, kinematic, m^2/s

@@ -1,56 +1,23 @@
-// Air on tower and nacelle, and the wind before the tower: integrals by hand, formulas, differences.
-#include "mbs/base/error.hpp"
+// Air on tower and nacelle: integrals by hand, formulas, differences.
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/aerodynamics/field_at_state.hpp"
-#include "turbines/aerodynamics/machine_air.hpp"
+#include "tests/turbines/aerodynamics/tower_machines.hpp"
 #include "turbines/aerodynamics/nrel5mw_air.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+
+#include <cmath>
+#include <vector>
 
 namespace cardan::testing::tower_air_tests {
 
 namespace {
 
 using namespace turbines;
+using namespace tower_machines;
 
 const SteadyWind oblique{.speed = 11, .direction = 0.3, .upflow = 0.1};
-const SteadyWind twisted{.speed = 10,
-                         .shear = Shear::power,
-                         .exponent = 0.2,
-                         .direction = 0.25,
-                         .veer = 0.001,
-                         .upflow = 0.08,
-                         .lateral = 0.001};
-
-// That of the NREL 5 MW machine: straight taper.
-constexpr double top = 87.6, thick = 6, thin = 3.87, coefficient = 0.6;
-double taper(double z) {
-    return thick + (thin - thick) * z / top;
-}
-AeroTower table(int intervals, TowerDam dam = TowerDam::none, double lowest = 0) {
-    AeroTower out;
-    for (int i = 0; i <= intervals; ++i) {
-        out.height.push_back(lowest + (top - lowest) * i / intervals);
-        out.diameter.push_back(taper(out.height.back()));
-        out.drag.push_back(coefficient);
-    }
-    out.dam = dam;
-    return out;
-}
 const AeroNacelle box{.area = {30, 50, 40}, .drag = {1.1, 1.2, 0.9}, .centre = {1.5, 0.2, 1.8}};
-
-// Two elements per blade; a tower that bends, or one that stands on a platform which moves.
-enum class Stand : std::uint8_t { elastic, rigid, platform };
-Turbine machine_on(Stand stand, double tilt = 0.087, double cone = -0.044) {
-    TurbineDescription description = nrel5mw_description({.pitch_actuator = true});
-    description.tower.rigid = stand != Stand::elastic;
-    description.nacelle.tilt = tilt;
-    description.blade.cone = cone;
-    if (stand == Stand::platform) description.platform = PlatformDescription{};
-    return assemble(description, nrel5mw_assembly(Nrel5mwVariant::report, 2, 2));
-}
 
 // Force, and moment about the ground's origin.
 Wrench sum_of(const WrenchField& field, const ForceInput& at) {
@@ -60,19 +27,6 @@ Wrench sum_of(const WrenchField& field, const ForceInput& at) {
     for (std::size_t i = 0; i < all.size(); ++i)
         add_moved(sum, all[i], place_of(at.kinematics, field.points[i]), Vec3::Zero());
     return sum;
-}
-
-// Turning, a blade before the tower, everything moving and out of place.
-MachineState passing(const Turbine& machine, unsigned seed) {
-    MachineState state(machine);
-    Random random(seed);
-    for (Eigen::Index i = 0; i < state.q.size(); ++i) {
-        state.q(i) += uniform(random, -0.02, 0.02);
-        state.qd(i) += uniform(random, -0.1, 0.1);
-    }
-    state.q(machine.rotor().spin) = pi + 0.02;
-    state.qd(machine.rotor().spin) = 1.1;
-    return state;
 }
 
 // Integral of f up to the tower's top by Simpson's rule: exact for a cubic.
@@ -150,7 +104,7 @@ TEST_CASE("air on a tower: in a wind that changes with height, second order in t
     std::vector<double> errors;
     for (const int intervals : {4, 8, 16}) {
         const WrenchField field =
-            TowerAir(machine, {.tower = table(intervals, TowerDam::none, lowest)}, sheared).field();
+            TowerAir(machine, {.tower = table(intervals, TowerInfluence::none, lowest)}, sheared).field();
         const Wrench sum = sum_of(field, FieldState(machine, MachineState(machine)).input());
         errors.push_back(std::abs(sum.force.x() - exact));
     }
@@ -200,99 +154,10 @@ TEST_CASE("air on a tower: derivatives are those of the forces", "[property]") {
     }
 }
 
-TEST_CASE("tower dam on a machine: the wind at the sections is that of the formula", "[analytic]") {
-    const Turbine machine = machine_on(Stand::elastic, 0, 0);
-    const AeroBlade blade = nrel5mw_aero_blade();
-    const SteadyWind wind{.speed = 9};
-    MachineState state(machine);
-    const double azimuth = pi - 0.03;
-    state.q(machine.rotor().spin) = azimuth;
-    state.qd(machine.rotor().spin) = 1.1;
-    const FieldState at(machine, state);
-    const MachineAir open(machine, blade, wind);
-    const auto without = open.sections(at.input());
-    const Vec3 hub = hub_at_rest(machine);
-    for (const TowerDam dam : {TowerDam::potential, TowerDam::bak}) {
-        const MachineAir air(machine, blade, wind, {}, {.tower = table(3, dam)});
-        CHECK(air.has_dam());
-        CHECK(!open.has_dam());
-        const auto with = air.sections(at.input());
-        double largest = 0;
-        for (std::size_t i = 0; i < blade.sections(); ++i) {
-            const double r = blade.position[i];
-            const Vec3 place = hub + r * Vec3(0, -std::sin(azimuth), std::cos(azimuth));
-            const double above = place.z() - top, z = std::min(place.z(), top), radius = taper(z) / 2;
-            // Beyond the top the distances grow, until nothing is left one radius above it.
-            double x = place.x() / radius, y = place.y() / radius, u = 0, v = 0;
-            if (above < radius) {
-                if (above > 0) {
-                    x /= std::cos(pi / 2 * above / radius);
-                    y /= std::cos(pi / 2 * above / radius);
-                }
-                if (dam == TowerDam::bak) x += 0.1;
-                const double square = x * x + y * y;
-                u = -(x * x - y * y) / (square * square);
-                v = -2 * x * y / (square * square);
-                if (dam == TowerDam::bak) {
-                    u += coefficient / (2 * pi) * x / square;
-                    v += coefficient / (2 * pi) * y / square;
-                }
-            }
-            CAPTURE(i, r, place.z(), x, y);
-            CHECK(with[0][i].V_x - without[0][i].V_x == Approx(9 * u).margin(1e-11));
-            // y of the section lies against the motion: level, towards -y of the ground where the blade hangs.
-            const double side = -std::cos(azimuth);
-            CHECK(with[0][i].V_y - without[0][i].V_y == Approx(-9 * v * side).margin(1e-11));
-            largest = std::max(largest, -u);
-        }
-        CHECK(largest > 0.05);
-        // Other blades are far from the tower.
-        CHECK(with[1].back().V_x == Approx(without[1].back().V_x));
-    }
-}
-
-TEST_CASE("tower dam on a machine: derivatives are those of the forces", "[property]") {
-    const AeroBlade blade = nrel5mw_aero_blade();
-    for (const Stand stand : {Stand::elastic, Stand::rigid, Stand::platform}) {
-        const Turbine machine = machine_on(stand);
-        for (const TowerDam dam : {TowerDam::potential, TowerDam::bak})
-            for (const Skew skew : {Skew::none, Skew::pitt_peters}) {
-                RotorAirOptions options;
-                options.skew = skew;
-                AeroTower tower = table(4, dam);
-                tower.drag = {0.4, 0.5, 0.7, 0.6, 0.3};
-                const MachineAir air(machine, blade, twisted, options, {.tower = tower});
-                CAPTURE(static_cast<int>(stand), static_cast<int>(dam), static_cast<int>(skew));
-                // 4e-9: roots of the balance are good to 1e-13 rad, but where the air comes along the plane of the
-                // rotor (phi = -0.003 in one section with seed 6: 8e-12), which this state has nowhere.
-                checked_derivatives(machine, air.field(), passing(machine, 7), 4e-9, 4e-9);
-            }
-    }
-}
-
-TEST_CASE("tower dam on a machine: the wind in and next to the tower, and without rows, is as it was", "[property]") {
-    const Turbine machine = machine_on(Stand::elastic);
-    const AeroBlade blade = nrel5mw_aero_blade();
-    const FieldState at(machine, passing(machine, 6));
-    AeroTower wide = table(1, TowerDam::potential);
-    wide.diameter = {30, 30};  // around the blade
-    const MachineAir in_it(machine, blade, twisted, {}, {.tower = wide}), open(machine, blade, twisted);
-    const auto inside = in_it.sections(at.input()), outside = open.sections(at.input());
-    CHECK(inside[0].back().V_x == outside[0].back().V_x);
-    const MachineAir before(machine, blade, twisted, {}, {.tower = table(1, TowerDam::potential)});
-    CHECK(std::abs(before.sections(at.input())[0].back().V_x - outside[0].back().V_x) > 1e-3);
-    CHECK(open.support().is_empty());
-    CHECK(open.on(machine).forces().fields().size() == 1);
-    CHECK(in_it.on(machine).forces().fields().size() == 2);
-    AeroTower no_loads = wide;
-    no_loads.loads = false;
-    CHECK(MachineAir(machine, blade, twisted, {}, {.tower = no_loads}).support().is_empty());
-}
-
 TEST_CASE("air on a tower: evaluations allocate nothing", "[memory]") {
-    const Turbine machine = machine_on(Stand::elastic);
+    const Turbine machine = downwind_machine(Stand::elastic);
     const MachineAir air(machine, nrel5mw_aero_blade(), twisted, {},
-                         {.tower = table(6, TowerDam::bak), .nacelle = box});
+                         {.tower = with_shadow(table(6, TowerInfluence::bak), TowerShadow::eames), .nacelle = box});
     const FieldState at(machine, passing(machine, 2));
     const ForceInput input = at.input();
     const Eigen::Index n = input.q.size();

@@ -31,14 +31,14 @@ struct Model {
         folder.replace("small.fst", "9.80665   Gravity      - (m/s^2)",
                        "9.80665   Gravity      - (m/s^2)\n 1.19 AirDens - (kg/m^3)\n 1.6E-05 KinVisc - (m^2/s)");
         folder.replace("small_AeroDyn.dat", "1.2       AirDens", "\"default\"  AirDens");
-        folder.replace("small_AeroDyn.dat", "0         TwrPotent", "1         TwrPotent");
+        folder.replace("small_AeroDyn.dat", "0         TwrPotent", "2         TwrShadow\n1         TwrPotent");
         folder.replace("small_AeroDyn.dat", "False     TwrAero", "True      TwrAero");
         folder.write(
             "small_AeroDyn.dat",
             test::bytes_of(folder / "small_AeroDyn.dat") +
                 "====== Nacelle =====\nTrue NacelleDrag - (flag)\n2, 4, 3 NacArea - m^2\n0.5, 1, 1.5 NacCd - 1\n"
                 "-0.5, 0, 0.75 NacDragAC - m\n====== Tower =====\n2 NumTwrNds - nodes\n"
-                "TwrElev TwrDiam TwrCd\n(m) (m) (-)\n0.0 1.5 0.5\n24.0 0.9 0.75\n");
+                "TwrElev TwrDiam TwrCd TwrTI\n(m) (m) (-) (-)\n0.0 1.5 0.5 0.1\n24.0 0.9 0.75 0.15\n");
     }
     std::string main() const { return folder / "small.fst"; }
 };
@@ -92,8 +92,10 @@ void check_same_air(const Aerodynamics& a, const Aerodynamics& b) {
     CHECK(a.support.tower.height == b.support.tower.height);
     CHECK(a.support.tower.diameter == b.support.tower.diameter);
     CHECK(a.support.tower.drag == b.support.tower.drag);
-    CHECK(a.support.tower.has_dam() == b.support.tower.has_dam());
-    CHECK((!b.support.tower.has_dam() || a.support.tower.dam == b.support.tower.dam));
+    CHECK(a.support.tower.turbulence == b.support.tower.turbulence);
+    CHECK(a.support.tower.has_influence() == b.support.tower.has_influence());
+    CHECK((!b.support.tower.has_influence() || a.support.tower.influence == b.support.tower.influence));
+    CHECK((!b.support.tower.has_influence() || a.support.tower.shadow == b.support.tower.shadow));
     CHECK(a.support.tower.has_loads() == b.support.tower.has_loads());
     CHECK(a.support.nacelle.area == b.support.nacelle.area);
     CHECK(a.support.nacelle.drag == b.support.nacelle.drag);
@@ -147,7 +149,8 @@ TEST_CASE("machine: written as YAML and read again it is the same machine, with 
         CHECK(machine.no_air.empty());
         REQUIRE(machine.air->blade.polars.back().over_reynolds());
         CHECK(machine.air->density == 1.19);  // "default" is that of the main file
-        CHECK(machine.air->support.tower.has_dam());
+        CHECK(machine.air->support.tower.influence == TowerInfluence::potential);
+        CHECK(machine.air->support.tower.shadow == TowerShadow::eames);
         CHECK(machine.air->support.nacelle.has_loads());
         check_same(machine, again(machine));
         CHECK(power(machine) == power(again(machine)));

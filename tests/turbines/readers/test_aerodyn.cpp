@@ -127,7 +127,7 @@ TEST_CASE("aerodyn: tower and nacelle", "[analytic]") {
     const Model model(newer);
     AeroDynFile file = model.read();
     const AeroTower tower = file.support.tower;
-    CHECK(tower.dam == TowerDam::potential);
+    CHECK(tower.influence == TowerInfluence::potential);
     CHECK(tower.loads);
     CHECK(tower.height == std::vector<double>{15, 80});
     CHECK(tower.diameter == std::vector<double>{6.5, 3});
@@ -140,16 +140,46 @@ TEST_CASE("aerodyn: tower and nacelle", "[analytic]") {
     model.replace("main.dat", "0 TwrShadow - none", "1 TwrShadow - Powles\nTrue NacelleDrag - loads");
     model.replace("main.dat", "True TwrAero", "False TwrAero");
     file = model.read();
-    CHECK(file.support.tower.dam == TowerDam::bak);
+    CHECK(file.support.tower.influence == TowerInfluence::bak);
     CHECK(!file.support.tower.loads);
     CHECK(file.support.nacelle.area == Vec3(20, 40, 30));
     CHECK(file.support.nacelle.drag == Vec3(0.5, 1, 1.5));
     CHECK(file.support.nacelle.centre == Vec3(-2.5, 0, 1.75));
-    CHECK(test::has_note(file.notes, "TwrShadow", "the tower has no shadow here"));
+    CHECK(file.support.tower.shadow == TowerShadow::powles);
+    CHECK(file.support.tower.turbulence.empty());
+    CHECK(!test::has_note(file.notes, "TwrShadow", ""));
+    model.replace("main.dat", "1 TwrShadow", "2 TwrShadow");
+    file = model.read();
+    CHECK(file.support.tower.shadow == TowerShadow::eames);
+    CHECK(file.support.tower.turbulence == std::vector<double>{0.1, 0.1});
+    CHECK_NOTHROW(file.support.tower.check());
     // Where nothing is asked for there is nothing, not even a table.
     model.replace("main.dat", "2 TwrPotent", "0 TwrPotent");
+    model.replace("main.dat", "2 TwrShadow", "0 TwrShadow");
     model.replace("main.dat", "2 NumTwrNds", "0 NumTwrNds");
     CHECK(model.read().support.tower.height.empty());
+}
+
+TEST_CASE("aerodyn: flags of older files for the influence of the tower", "[analytic]") {
+    const Model model(older);
+    CHECK(!model.read().support.tower.has_influence());
+    model.replace("main.dat", "0 TwrPotent - none", "True TwrPotent - flow\nFalse TwrShadow - wake");
+    model.replace("main.dat", "TwrElev TwrDiam TwrCd TwrTI TwrCb !TwrTI used only with TwrShadow=2",
+                  "TwrElev TwrDiam TwrCd");
+    model.replace("main.dat", "15.0 6.5 0.5 0.1 0.0\n80.0 3.0 0.75 0.1 0.0", "15.0 6.5 0.5\n80.0 3.0 0.75");
+    CHECK(model.read().support.tower.influence == TowerInfluence::potential);
+    CHECK(model.read().support.tower.shadow == TowerShadow::none);
+    model.replace("main.dat", "True TwrPotent", "False TwrPotent");
+    model.replace("main.dat", "False TwrShadow", "True TwrShadow");
+    const AeroTower tower = model.read().support.tower;
+    CHECK(tower.influence == TowerInfluence::none);
+    CHECK(tower.shadow == TowerShadow::powles);
+    CHECK(tower.drag == std::vector<double>{0.5, 0.75});
+    CHECK_NOTHROW(tower.check());
+    model.replace("main.dat", "True TwrShadow", "2 TwrShadow");
+    check_error([&] { static_cast<void>(model.read()); }, {"main.dat", "no column 'TwrTI'", "TwrElev, TwrDiam, TwrCd"});
+    model.replace("main.dat", "2 TwrShadow", "Yes TwrShadow");
+    check_error([&] { static_cast<void>(model.read()); }, {"main.dat", "TwrShadow: 'Yes' is neither True nor False"});
 }
 
 TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
@@ -172,6 +202,15 @@ TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
     check_error(with("main.dat", "2 NumAFfiles", "3 NumAFfiles"), {"main.dat", "3 names of files expected, found 2"});
     check_error(with("main.dat", "polar_2.dat", "none.dat"), {"main.dat", "AFNames", "none.dat"});
     check_error(with("main.dat", "1 TwrPotent", "3 TwrPotent"), {"main.dat", "TwrPotent = 3; allowed: 0 ... 2"});
+    check_error(with("main.dat", "0 TwrShadow", "3 TwrShadow"), {"main.dat", "TwrShadow = 3; allowed: 0 ... 2"});
+    check_error(
+        [] {
+            const Model model(newer);
+            model.replace("main.dat", "0 TwrShadow", "2 TwrShadow");
+            model.replace("main.dat", "0.75 0.1 0.0", "0.75 10 0.0");
+            static_cast<void>(model.read());
+        },
+        {"main.dat", "TwrTI = 10; allowed with TwrShadow = 2: more than 0, less than 1"});
     check_error(with("main.dat", "80.0 3.0 0.75", "8.0 3.0 0.75"), {"main.dat", "TwrElev; allowed: ascending"});
     check_error(with("main.dat", "80.0 3.0 0.75", "80.0 0 0.75"), {"main.dat", "TwrDiam = 0; allowed: > 0"});
     check_error(with("main.dat", "80.0 3.0 0.75", "80.0 3.0 -1"), {"main.dat", "TwrCd = -1; allowed: >= 0"});

@@ -9,7 +9,7 @@
 //
 //     dV_P/dq_a = omega_a x v + w x (V_P - V_P of a point fixed to that body),    dV_P/dqd_a = v.
 //
-// The wind that a tower dams depends on both motions, too: air_tower.cpp.
+// The wind that a tower changes depends on both motions, too: air_tower.cpp.
 //
 // Its axes x, y, z turn with w if the hub does too; else z turns with w and y stays in the plane of the rotor, so they
 // turn with w + (kappa - w.z) z, kappa = (w.x) (s.z) / (s.x), s the shaft, and the angle of the chord against them
@@ -55,7 +55,7 @@ public:
         if (parts_.lags) memory_.lagging.resize(air.scratch_.sections.size());
         for (const int a : parts_.bodies) entry(memory_.movers, a) = air.motion_.mover(a);
         for (SectionState& s : air.scratch_.sections) s.wind_gradient = air.wind_.gradient_at(s.place);
-        if (parts_.dam) find_dam();
+        if (parts_.influence) find_influence();
     }
 
     void add() {
@@ -86,22 +86,23 @@ private:
         return {by.w + angle * s.span, angle, s.radial.dot(by.at(s.place))};
     }
 
-    void find_dam() {
-        memory_.dam.resize(air_.scratch_.dam.size());
-        for (std::size_t i = 0; i < memory_.dam.size(); ++i)
-            memory_.dam[i] = DamSlopes(*parts_.dam, air_.motion_, air_.wind_, air_.scratch_.dam[i]);
+    void find_influence() {
+        memory_.influence.resize(air_.scratch_.influence.size());
+        for (std::size_t i = 0; i < memory_.influence.size(); ++i)
+            memory_.influence[i] =
+                InfluenceSlopes(*parts_.influence, air_.motion_, air_.wind_, air_.scratch_.influence[i]);
     }
     // Changes of the wind at a section by a coordinate: its place moves by v.
     Vec3 wind_by_q(std::size_t section, int a, const Vec3& v) const {
         Vec3 open = air_.scratch_.sections[section].wind_gradient * v;
-        if (!parts_.dam) return open;
-        const DamState& dam = air_.scratch_.dam[section];
-        return open + memory_.dam[section].by_q(dam, mover(a), v, moves(a, dam.body));
+        if (!parts_.influence) return open;
+        const InfluenceState& tower = air_.scratch_.influence[section];
+        return open + memory_.influence[section].by_q(tower, mover(a), v, moves(a, tower.body));
     }
     Vec3 wind_by_qd(std::size_t section, int a) const {
-        if (!parts_.dam) return Vec3::Zero();
-        const DamState& dam = air_.scratch_.dam[section];
-        return memory_.dam[section].by_qd(dam, mover(a), moves(a, dam.body));
+        if (!parts_.influence) return Vec3::Zero();
+        const InfluenceState& tower = air_.scratch_.influence[section];
+        return memory_.influence[section].by_qd(tower, mover(a), moves(a, tower.body));
     }
 
     std::size_t index(std::size_t k, std::size_t i) const { return k * parts_.profile->sections() + i; }
@@ -295,7 +296,7 @@ private:
         for (std::size_t k = 0; k < parts_.blades.size(); ++k)
             for (std::size_t i = 0; i < parts_.profile->sections(); ++i) {
                 const SectionState& s = air_.sections(k)[i];
-                if (!parts_.dam && s.wind_gradient.isZero(0)) continue;
+                if (!parts_.influence && s.wind_gradient.isZero(0)) continue;
                 const AirBlade& blade = parts_.blades[k];
                 for (int j = 0; j < depth(blade.sections[i].body); ++j) {
                     const int a = entry(blade.path, j);

@@ -56,7 +56,7 @@ AirEvaluation::AirEvaluation(const AirParts& parts, const FieldInput& at, AirScr
     shaft_ = motion_.rotation(parts.hub_body) * parts.hub_axis;
     hub_ = motion_.place(parts.hub_body, parts.hub_place);
     place_sections();
-    if (parts.dam) dam_wind();
+    if (parts.influence) disturb_wind();
     find_mean_wind();
     find_loads();
 }
@@ -88,12 +88,12 @@ void AirEvaluation::place_sections() {
     }
 }
 
-void AirEvaluation::dam_wind() {
-    scratch_.dam.resize(scratch_.sections.size());
+void AirEvaluation::disturb_wind() {
+    scratch_.influence.resize(scratch_.sections.size());
     for (std::size_t i = 0; i < scratch_.sections.size(); ++i) {
         SectionState& s = scratch_.sections[i];
-        scratch_.dam[i] = dam_at(*parts_.dam, motion_, wind_, s.place);
-        if (scratch_.dam[i].acts) s.relative += scratch_.dam[i].disturbance;
+        scratch_.influence[i] = influence_at(*parts_.influence, motion_, wind_, s.place);
+        if (scratch_.influence[i].acts) s.relative += scratch_.influence[i].disturbance;
     }
 }
 

@@ -28,12 +28,12 @@ struct AirParts {
     Wind wind = SteadyWind{};
     RotorAirOptions options;
     std::vector<AirBlade> blades;
-    int hub_body = -1, shaft_body = -1;  ///< what turns, and what carries it; -1: the ground
-    Vec3 hub_place, hub_axis;            ///< centre and shaft, downwind; axes of the hub's body
-    std::vector<int> trunk;              ///< bodies from the base to the hub, ascending
-    double radius = 0;                   ///< of the rotor that is not bent, m
-    std::vector<int> bodies;             ///< all that move a section, ascending
-    std::optional<DamParts> dam;         ///< the tower changes the wind at the sections
+    int hub_body = -1, shaft_body = -1;       ///< what turns, and what carries it; -1: the ground
+    Vec3 hub_place, hub_axis;                 ///< centre and shaft, downwind; axes of the hub's body
+    std::vector<int> trunk;                   ///< bodies from the base to the hub, ascending
+    double radius = 0;                        ///< of the rotor that is not bent, m
+    std::vector<int> bodies;                  ///< all that move a section, ascending
+    std::optional<InfluenceParts> influence;  ///< the tower changes the wind at the sections
     std::optional<AirLags> lags;
     std::string wind_input;  ///< that changes the wind's speed; empty: none
 };
@@ -42,7 +42,7 @@ struct AirParts {
 struct SectionState {
     Vec3 place, span, x, y;   ///< axes of the section: x downwind, y against the motion
     Vec3 velocity, relative;  ///< of the section; of the air against it, m/s
-    Mat3 wind_gradient;       ///< dW_i/dx_j, 1/s, of the wind that no tower dams; for derivatives only
+    Mat3 wind_gradient;       ///< dW_i/dx_j, 1/s, of the wind without the tower; for derivatives only
     Vec3 radial;              ///< unit, from the shaft
     RotorWake wake;
     Annulus annulus;
@@ -52,10 +52,10 @@ struct SectionState {
 
 /// Memory of AirDerivatives.
 struct AirDerivativeScratch {
-    std::vector<Mover> movers;           ///< by coordinate
-    std::vector<DamSlopes> dam;          ///< of all sections, if there is a dam
-    std::vector<LaggingSlopes> lagging;  ///< likewise, if something lags
-    std::vector<Columns6> by_q, by_qd;   ///< of the sections of a blade: force, moment per length
+    std::vector<Mover> movers;               ///< by coordinate
+    std::vector<InfluenceSlopes> influence;  ///< of all sections, if the tower changes the wind there
+    std::vector<LaggingSlopes> lagging;      ///< likewise, if something lags
+    std::vector<Columns6> by_q, by_qd;       ///< of the sections of a blade: force, moment per length
     /// Of all sections, by what they see of the wake: its angle, its blade's sine, the share of the induction.
     std::vector<Eigen::Matrix<double, 6, 3>> by_wake;
     Columns6 blade_q, blade_qd, trunk_q, trunk_qd;             ///< moment about the base's origin, force; by coordinate
@@ -67,12 +67,12 @@ struct AirDerivativeScratch {
 /// Memory that evaluations reuse.
 struct AirScratch {
     std::vector<BodyRate> rates;
-    std::vector<SectionState> sections;  ///< of all blades, one after the other
-    std::vector<DamState> dam;           ///< at them, if there is one
-    std::vector<LaggingAir> lagging;     ///< likewise, if something lags
-    std::vector<SectionInflow> inflows;  ///< of all sections
+    std::vector<SectionState> sections;     ///< of all blades, one after the other
+    std::vector<InfluenceState> influence;  ///< at them, if the tower changes the wind there
+    std::vector<LaggingAir> lagging;        ///< likewise, if something lags
+    std::vector<SectionInflow> inflows;     ///< of all sections
     std::vector<Induction> inductions;  ///< in equilibrium with the loads; without lags as the rotor's wake leaves them
-    std::vector<Vec3> places, winds;    ///< of all sections, the wind without a dam
+    std::vector<Vec3> places, winds;    ///< of all sections, the wind without the tower
     std::vector<double> along_x, along_y, angles,
         levers;  ///< likewise: the chord's components and angle, the wake's lever
     AirDerivativeScratch derivatives;
@@ -114,7 +114,7 @@ public:
 
 private:
     void place_sections();
-    void dam_wind();
+    void disturb_wind();
     void find_mean_wind();
     void find_inductions();
     void find_loads();

@@ -42,13 +42,13 @@ double linear(double t, double from, double to) {
 
 // The point of a segment next to a place: distance along it, and how far away.
 struct Nearest {
-    const DamSegment* segment;
+    const InfluenceSegment* segment;
     Vec3 from, axis;  // base axes
     double along, free_along, distance;
 };
-Nearest nearest(const DamParts& parts, const BodyMotion& motion, const Vec3& place) {
+Nearest nearest(const InfluenceParts& parts, const BodyMotion& motion, const Vec3& place) {
     Nearest best{nullptr, Vec3::Zero(), Vec3::Zero(), 0, 0, std::numeric_limits<double>::infinity()};
-    for (const DamSegment& one : parts.segments) {
+    for (const InfluenceSegment& one : parts.segments) {
         const Vec3 from = motion.place(one.body, one.from), axis = motion.rotation(one.body) * one.axis;
         const double free = axis.dot(place - from), along = std::clamp(free, 0.0, one.length),
                      distance = (place - from - along * axis).norm();
@@ -57,15 +57,40 @@ Nearest nearest(const DamParts& parts, const BodyMotion& motion, const Vec3& pla
     return best;
 }
 
-// Radius and drag where the foot is.
-void take_row(const DamParts& parts, double s, DamState& out) {
+// A column of the table where the foot is, and its slope along the tower.
+struct Row {
+    std::size_t below;
+    double share, width;  // of the way to the next row; m
+
+    double value(const std::vector<double>& column) const { return linear(share, column[below], column[below + 1]); }
+    double slope(const std::vector<double>& column) const { return (column[below + 1] - column[below]) / width; }
+};
+
+void take_row(const InfluenceParts& parts, double s, InfluenceState& out) {
     const auto next = std::upper_bound(parts.place.begin() + 1, parts.place.end() - 1, s);
     const auto i = static_cast<std::size_t>(next - parts.place.begin() - 1);
-    const double width = parts.place[i + 1] - parts.place[i], t = (s - parts.place[i]) / width;
-    out.radius = linear(t, parts.diameter[i], parts.diameter[i + 1]) / 2;
-    out.radius_slope = (parts.diameter[i + 1] - parts.diameter[i]) / (2 * width);
-    out.drag = linear(t, parts.drag[i], parts.drag[i + 1]);
-    out.drag_slope = (parts.drag[i + 1] - parts.drag[i]) / width;
+    const double width = parts.place[i + 1] - parts.place[i];
+    const Row row{i, (s - parts.place[i]) / width, width};
+    out.radius = row.value(parts.diameter) / 2;
+    out.radius_slope = row.slope(parts.diameter) / 2;
+    out.drag = row.value(parts.drag);
+    out.drag_slope = row.slope(parts.drag);
+    if (parts.turbulence.empty()) return;
+    out.turbulence = row.value(parts.turbulence);
+    out.turbulence_slope = row.slope(parts.turbulence);
+}
+
+// What the flow around the tower and its wake add to the wind.
+Vec3 disturbance(const InfluenceParts& parts, const InfluenceState& at) {
+    const Vec3 flow = tower_influence(parts.influence, at.wind, at.across, at.drag);
+    if (parts.shadow == TowerShadow::none) return flow;
+    return flow + tower_shadow(parts.shadow, at.wind, at.across, at.drag, at.turbulence);
+}
+TowerInfluenceSlopes disturbance_slopes(const InfluenceParts& parts, const InfluenceState& at) {
+    TowerInfluenceSlopes out = tower_influence_slopes(parts.influence, at.wind, at.across, at.drag);
+    if (parts.shadow != TowerShadow::none)
+        out += tower_shadow_slopes(parts.shadow, at.wind, at.across, at.drag, at.turbulence);
+    return out;
 }
 
 }  // namespace
@@ -88,9 +113,10 @@ AirLine air_tower(const Turbine& turbine, const AeroTower& tower) {
     return {std::move(on.pieces), std::move(on.line.breaks), std::move(places), std::move(offsets)};
 }
 
-DamParts dam_parts(const Turbine& turbine, const AeroTower& tower) {
+InfluenceParts influence_parts(const Turbine& turbine, const AeroTower& tower) {
     const AirLine line = air_tower(turbine, tower);
-    DamParts out{tower.dam, {}, tower.diameter, tower.drag, {}};
+    InfluenceParts out{tower.influence, tower.shadow, {}, tower.diameter, tower.drag, {}, {}};
+    if (tower.shadow == TowerShadow::eames) out.turbulence = tower.turbulence;
     out.place.reserve(tower.height.size());
     for (std::size_t i = 0; i < tower.height.size(); ++i) out.place.push_back(line.place(i));
     out.segments.reserve(line.pieces().size());
@@ -103,9 +129,10 @@ DamParts dam_parts(const Turbine& turbine, const AeroTower& tower) {
     return out;
 }
 
-DamState dam_at(const DamParts& parts, const BodyMotion& motion, const SteadyWind& wind, const Vec3& place) {
+InfluenceState influence_at(const InfluenceParts& parts, const BodyMotion& motion, const SteadyWind& wind,
+                            const Vec3& place) {
     const Nearest next = nearest(parts, motion, place);
-    DamState out{};
+    InfluenceState out{};
     out.body = next.segment->body;
     out.axis = next.axis;
     out.foot = next.from + next.along * next.axis;
@@ -123,7 +150,7 @@ DamState dam_at(const DamParts& parts, const BodyMotion& motion, const SteadyWin
     out.relative = wind.at(out.foot) - out.velocity;
     out.wind = across(out.relative, out.axis);
     out.across = out.stretch / out.radius * across(place - out.foot, out.axis);
-    out.disturbance = tower_dam(parts.kind, out.wind, out.across, out.drag);
+    out.disturbance = disturbance(parts, out);
     return out;
 }
 
@@ -131,9 +158,10 @@ DamState dam_at(const DamParts& parts, const BodyMotion& motion, const SteadyWin
 //
 //     dX = f/r (I - t t') dP - X (r'/r) dh + X (d ln f/dz) dz,    dh = t . dP where the foot slides, else dz = t . dP,
 //     dC = t dh,    d(wind at C) = G t dh,    d(velocity at C) = omega x t dh.
-DamSlopes::DamSlopes(const DamParts& parts, const BodyMotion& motion, const SteadyWind& wind, const DamState& state) {
+InfluenceSlopes::InfluenceSlopes(const InfluenceParts& parts, const BodyMotion& motion, const SteadyWind& wind,
+                                 const InfluenceState& state) {
     if (!state.acts) return;
-    const TowerDamSlopes slopes = tower_dam_slopes(parts.kind, state.wind, state.across, state.drag);
+    const TowerInfluenceSlopes slopes = disturbance_slopes(parts, state);
     const Vec3& t = state.axis;
     const Mat3 plane = Mat3::Identity() - t * t.transpose();
     gradient_ = wind.gradient_at(state.foot);
@@ -142,12 +170,12 @@ DamSlopes::DamSlopes(const DamParts& parts, const BodyMotion& motion, const Stea
     Vec3 along = state.height_slope * slopes.by_place * state.across;
     if (state.slides)
         along = -state.radius_slope / state.radius * slopes.by_place * state.across +
-                state.drag_slope * slopes.by_drag +
+                state.drag_slope * slopes.by_drag + state.turbulence_slope * slopes.by_turbulence +
                 by_wind_ * (gradient_ * t - cross<double>(motion.angular(state.body), t));
     by_place_ += along * t.transpose();
 }
 
-Vec3 DamSlopes::by_q(const DamState& state, const Mover& by, const Vec3& v, bool moves_tower) const {
+Vec3 InfluenceSlopes::by_q(const InfluenceState& state, const Mover& by, const Vec3& v, bool moves_tower) const {
     if (!state.acts) return Vec3::Zero();
     if (!moves_tower) return by_place_ * v;
     // The place turns with the segment: in its axes only the wind changes.
@@ -155,7 +183,7 @@ Vec3 DamSlopes::by_q(const DamState& state, const Mover& by, const Vec3& v, bool
     return cross<double>(by.w, state.disturbance) + by_wind_ * (change - cross<double>(by.w, state.relative));
 }
 
-Vec3 DamSlopes::by_qd(const DamState& state, const Mover& by, bool moves_tower) const {
+Vec3 InfluenceSlopes::by_qd(const InfluenceState& state, const Mover& by, bool moves_tower) const {
     if (!state.acts || !moves_tower) return Vec3::Zero();
     return -(by_wind_ * by.at(state.foot));
 }

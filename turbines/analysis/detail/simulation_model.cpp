@@ -9,6 +9,7 @@
 #include "turbines/analysis/steady_rotation.hpp"
 #include "turbines/machine/wind_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -49,7 +50,7 @@ solvers::PeriodicSteadyState rotation_in_wind(const Turbine& at_start, double sp
 // About the shaft, mean over a revolution in steady rotation, N m.
 double torque_of(const MachineAir& air, const Turbine& at_start, double speed, const Report& report) {
     if (speed == 0) return 0;
-    constexpr int azimuths = 24;
+    const int azimuths = std::max(24, air.least_azimuths());
     const solvers::PeriodicSteadyState state = rotation_in_wind(at_start, speed, report);
     const Model& model = at_start.system().model;
     Workspace workspace(model);

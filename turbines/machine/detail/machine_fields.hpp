@@ -15,8 +15,11 @@ namespace cardan {
 inline const char* name_of(Skew skew) {
     return skew == Skew::none ? "none" : "pitt_peters";
 }
-inline const char* name_of(TowerDam influence) {
-    return influence == TowerDam::none ? "none" : influence == TowerDam::potential ? "potential" : "bak";
+inline const char* name_of(TowerInfluence influence) {
+    return influence == TowerInfluence::none ? "none" : influence == TowerInfluence::potential ? "potential" : "bak";
+}
+inline const char* name_of(TowerShadow shadow) {
+    return shadow == TowerShadow::none ? "none" : shadow == TowerShadow::powles ? "powles" : "eames";
 }
 inline const char* name_of(ProfileModel model) {
     return model == ProfileModel::four_states ? "four_states" : "separation";
@@ -81,7 +84,11 @@ void support_fields(Archive& archive, Support& support) {
         archive.numbers("diameter", support.tower.diameter);
         archive.numbers("drag", support.tower.drag);
         archive.optional_flag("loads", support.tower.loads);
-        archive.optional_choice("influence", support.tower.dam, {TowerDam::none, TowerDam::potential, TowerDam::bak});
+        archive.optional_numbers("turbulence", support.tower.turbulence);
+        archive.optional_choice("influence", support.tower.influence,
+                                {TowerInfluence::none, TowerInfluence::potential, TowerInfluence::bak});
+        archive.optional_choice("shadow", support.tower.shadow,
+                                {TowerShadow::none, TowerShadow::powles, TowerShadow::eames});
     });
     archive.group_if(support.nacelle.has_loads(), "nacelle", [&] {
         archive.vector("area", support.nacelle.area);
