@@ -27,7 +27,8 @@ struct Arguments {
 int parse(int argc, char** argv, Arguments& a) {
     program::CommandLine app(
         "Linear model of the 600 kW three-blade machine for control design.\n"
-        "Writes PREFIX.h5, PREFIX.mat and PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints the modes.");
+        "Writes PREFIX.h5 and PREFIX.mat, with --lin also PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints "
+        "the modes.");
     a.model.out = "wt600_linear_model";
     app.add_option("--rpm", a.rotor_rpm, "rotor speed, rev/min");
     program::add_linear_model_options(app, a.model);
@@ -93,7 +94,7 @@ int run(const Arguments& a) {
         a.data.empty() ? turbines::wt600_description() : turbines::wt600_description(std::filesystem::path(a.data));
     const turbines::Turbine turbine =
         program::with_generator(turbines::assemble(description, a.assembly), a.generator, a.data);
-    program::check_outputs(a.model.out, {".h5", ".mat", ".1.lin"});
+    program::check_outputs(a.model.out, {".h5", ".mat"});
 
     const solvers::LinearModel model = turbines::linearised(turbine,
                                                             {.rotor_speed = a.rotor_rpm * units::rpm,
@@ -110,7 +111,7 @@ int run(const Arguments& a) {
     program::write_files(model,
                          {{"multi_blade", static_cast<const solvers::ConstantModel&>(fixed)},
                           {"balanced", static_cast<const solvers::ConstantModel&>(small)}},
-                         a.model.out);
+                         a.model);
     return 0;
 }
 

@@ -37,7 +37,8 @@ void declare(CommandLine& app, LineariseArguments& a) {
     app.add_option("--max-frequency", a.max_frequency,
                    text(max_frequency_of_models, " (default: 1.3 times the third of the blade, clamped and at rest)"));
     app.add_option("--azimuth", a.azimuth,
-                   "of a periodic model that is given as a constant one, deg; the nearest there is");
+                   "of a periodic model that is given as a constant one, deg; the nearest there is")
+        .finite();
     app.add_flag("--gravity", a.machine.gravity, "about the periodic steady state under gravity");
     add_vibration_options(app, a.air);
     add_machine_options(app, a.machine);
@@ -201,14 +202,18 @@ void print_constant(const turbines::MachineLinearModel& linear, const std::optio
 
 int run(LineariseArguments& a, const CommandLine& command) {
     const bool windy = !a.air.wind.speeds.empty();
-    turbines::Machine machine = prepared_machine(a.machine);
-    if (a.model.out.empty()) a.model.out = default_prefix(a.machine.model, windy ? "linear_wind" : "linear");
+    check_wind(a.air.wind, a.rpm ? text(*a.rpm) : "");
     a.model.max_frequency = a.max_frequency.value_or(a.model.max_frequency);
     check(a.model, a.rpm.value_or(0));
-    if (windy && a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
-    if (windy) take_wind(machine, a.air.wind, a.machine.notes);
     const turbines::LinearModelSettings settings = settings_of(a);
-    check_outputs(a.model.out, {".h5", ".mat", ".1.lin"});
+    if (a.model.out.empty()) a.model.out = default_prefix(a.machine.model, windy ? "linear_wind" : "linear");
+    check_outputs(a.model.out, {".h5", ".mat"});
+    if (a.model.lin) check_outputs(a.model.out, {".1.lin"});
+    turbines::Machine machine = prepared_machine(a.machine);
+    check_stations(machine, a.machine, a.model.stations);
+    if (windy) take_wind(machine, a.air.wind, a.machine);
+    stop_at_once();  // nothing is kept
+    progress("linear model");
     turbines::MachineLinearModel linear = turbines::linear_model(machine, settings);
     keep_taken(linear.settings, a);
     if (a.machine.summary) std::cout << linear.turbine.summary() << "\n";
@@ -220,7 +225,8 @@ int run(LineariseArguments& a, const CommandLine& command) {
         print_periodic(linear, machine.description, modes);
     else
         print_constant(linear, modes);
-    write_files(linear.model, linear.constant, a.model.out);
+    end_progress();
+    write_files(linear.model, linear.constant, a.model);
     return 0;
 }
 
@@ -230,7 +236,8 @@ int linearise_command(int argc, char** argv) {
     return run_command<LineariseArguments>(
         "cardan linearise",
         "Linear model of any machine at a rotor speed, or with --wind at an operating point, for control design.\n"
-        "Writes PREFIX.h5, PREFIX.mat and PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints the modes.\n"
+        "Writes PREFIX.h5 and PREFIX.mat, with --lin also PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints "
+        "the modes.\n"
         "Three and more equal blades: in multi-blade coordinates, averaged over the azimuth, and reduced. Two blades "
         "or blades that differ: the model is periodic, and is given at all azimuths.",
         argc, argv, declare, run);

@@ -134,7 +134,7 @@ int run(SimulateArguments& a, const CommandLine& command) {
     a.machine.gravity = !a.no_gravity;
     if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
     turbines::Machine machine = prepared_machine(a.machine);
-    if (!a.wind.empty()) take_air(machine, a.air, a.machine.notes);
+    if (!a.wind.empty()) take_air(machine, a.air, a.machine);
     turbines::Simulation simulated = simulation(a, machine);
     if (a.list) return print(simulated.channels()), 0;
     const turbines::MachineLayout& layout = simulated.turbine().layout();

@@ -25,6 +25,7 @@ struct LinearModelArguments {
     int azimuths = 12, order = 0;
     StationOptions stations = {};
     std::string out = {};
+    bool lin = false;
 };
 
 inline constexpr auto max_frequency_of_models =
@@ -38,6 +39,7 @@ inline void add_linear_model_options(CommandLine& app, LinearModelArguments& a) 
                    "frequency; its order follows");
     app.add_option("--order", a.order, "order of the balanced model instead (0: by the error)");
     add_station_options(app, a.stations);
+    app.add_flag("--lin", a.lin, "write files of OpenFAST's linearisation too, one per azimuth: PREFIX.1.lin ...");
     app.add_option("--out", a.out, "prefix of the files");
 }
 
@@ -46,7 +48,9 @@ inline void check(const LinearModelArguments& a, double rpm) {
     if (!std::isfinite(rpm) || rpm < 0) throw InputError("--rpm", "value", rpm, ">= 0");
     require_positive("--max-frequency", "value [Hz]", a.max_frequency);
     require_positive("--error", "value [%]", a.error);
-    if (a.azimuths > 720) throw InputError("--azimuths", "value", a.azimuths, "at most 720");
+    if (a.azimuths < 1 || a.azimuths > 720) throw InputError("--azimuths", "value", a.azimuths, "1 ... 720");
+    if (a.order < 0) throw InputError("--order", "value", a.order, ">= 0");
+    static_cast<void>(stations_of(a.stations));
 }
 
 /// The branch of a diagram whose eigenvalue at the last point is nearest to a pole, and nearly equal; null: none.
@@ -109,14 +113,18 @@ inline void introduce(const solvers::LinearModel& model, double rpm, const solve
     std::printf("estimated error of C and D, relative: %.1e\n\n", model.output_error.maxCoeff());
 }
 
-/// PREFIX.h5, PREFIX.mat, PREFIX.1.lin, ...
+/// PREFIX.h5, PREFIX.mat, and where they are asked for PREFIX.1.lin, ...
 inline void write_files(const solvers::LinearModel& model, const std::vector<solvers::NamedModel>& constant,
-                        const std::string& prefix) {
+                        const LinearModelArguments& a) {
+    const std::string& prefix = a.out;
     solvers::write_hdf5(model, constant, prefix + ".h5");
     solvers::write_mat(model, constant, prefix + ".mat");
-    const auto files = solvers::write_lin(model, prefix);
-    std::printf("\nfiles: %s.h5, %s.mat, %s ... %zu files\n", prefix.c_str(), prefix.c_str(),
-                files.front().string().c_str(), files.size());
+    std::printf("\nfiles: %s.h5, .mat", prefix.c_str());
+    if (a.lin) {
+        const auto files = solvers::write_lin(model, prefix);
+        std::printf(", %s ... %zu files", files.front().string().c_str(), files.size());
+    }
+    std::printf("\n");
 }
 
 }  // namespace cardan::program

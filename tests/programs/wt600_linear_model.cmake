@@ -1,10 +1,10 @@
 add_example_test(example_linear wt600_linear_model 0
     "7 inputs, 20 outputs, 12 azimuths.*modes of A and of the Campbell.*1st drive-train torsion.*balanced model: order 56 and 2 .*yaw moment +[0-4].[0-9]* %.*pitch moment .collective. +[0-4].[0-9]* %.*example_linear.1.lin ... 12 files"
-    --blade-elements 3 --tower-elements 3 --out example_linear)
+    --lin --blade-elements 3 --tower-elements 3 --out example_linear)
 set_tests_properties(example_linear PROPERTIES FIXTURES_SETUP linear_wt600)
 add_example_test(example_linear_gravity wt600_linear_model 0 "periodic remainder.*modes of A\n.*order 6 and 0 " --gravity --rpm 20
                  --azimuths 9 --order 6 --generator locked --blade-elements 1 --tower-elements 1 --out example_linear_gravity)
-add_example_test(example_linear_still wt600_linear_model 0 "1 azimuths.*1 files" --rpm 0 --blade-elements 1 --tower-elements 1
+add_example_test(example_linear_still wt600_linear_model 0 "1 azimuths.*1 files" --lin --rpm 0 --blade-elements 1 --tower-elements 1
                  --out example_linear_still)
 add_example_test(example_linear_slip wt600_linear_model 0 "5[0-3].[0-9]* .*1st drive-train torsion.*order 16 and 1 states that are not stable"
                  --generator slip --order 16 --blade-elements 3 --tower-elements 3 --out example_linear_slip)
