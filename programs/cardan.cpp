@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace cardan::program {
 
@@ -28,17 +29,28 @@ constexpr std::array commands{
     Command{"linearise", "linear model for the design of controllers", linearise_command},
     Command{"flutter", "rotor speeds at which a blade flutters or diverges", flutter_command},
     Command{"convert", "a machine to our own YAML, a time history to CSV", convert_command},
-    Command{"plot", "pictures of a time history: channels, spectra, energies", plot_command},
+    Command{"plot", "pictures of results, several over each other", plot_command},
     Command{"info", "what is in a machine or a result", info_command},
     Command{"repair", "put a time history in order whose writer was killed", repair_command},
     Command{"repeat", "make a result once more from what its file holds", repeat_command}};
+
+constexpr std::array examples{
+    std::pair("cardan info MODEL", "what the model holds, and what is left out"),
+    std::pair("cardan campbell MODEL", "Campbell diagram from standstill to 1.2 times the rated speed"),
+    std::pair("cardan campbell MODEL --wind 4:24:2", "the same in the wind, with the damping of the air"),
+    std::pair("cardan steady MODEL --wind 4:24:2", "power curve, deflections and loads"),
+    std::pair("cardan simulate MODEL --wind 12", "motion in a wind of 12 m/s"),
+    std::pair("cardan plot MODEL_history.h5 --list", "channels of the result, to be drawn with --channel")};
 
 void print_usage(std::FILE* to) {
     std::fprintf(to, "Wind turbines as multibody systems.\nUsage: cardan COMMAND [OPTIONS]\n\nCommands:\n");
     for (const Command& one : commands) std::fprintf(to, "  %-12s%s\n", one.name, one.what);
     std::fprintf(to,
                  "\nOptions:\n  --help      print this help, or that of a command: cardan COMMAND --help\n"
-                 "  --version   print the version\n\nA machine to begin with: cardan campbell nrel5mw\n");
+                 "  --version   print the version\n\nExamples:\n");
+    for (const auto& [line, what] : examples) std::fprintf(to, "  %-42s%s\n", line, what);
+    std::fprintf(to,
+                 "MODEL is a file of OpenFAST (.fst) or windIO (.yaml), or a machine that is built in, as nrel5mw.\n");
 }
 
 }  // namespace
@@ -56,8 +68,9 @@ int main(int argc, char** argv) {
     if (word == "--help" || word == "-h" || (word == "help" && argc == 2)) return print_usage(stdout), 0;
     if (word == "--version") return std::puts(std::string(cardan::version()).c_str()), 0;
     const bool help = word == "help";
-    const char* const name = help ? argv[2] : argc > 1 ? argv[1] : "";
-    int (*const command)(int, char**) = command_of(name);
+    const char* const name = help ? argv[2] : argv[1];  // null: none
+    int (*const command)(int, char**) = name == nullptr ? nullptr : command_of(name);
+    if (name == nullptr) return print_usage(stderr), 2;
     if (command == nullptr) {
         std::fprintf(stderr, "cardan: there is no command '%s'\n\n", name);
         print_usage(stderr);

@@ -4,31 +4,36 @@
 #include "mbs/base/units.hpp"
 #include "turbines/machine/read_machine.hpp"
 
-#include "programs/shared/machine_file.hpp"
 #include "programs/shared/words.hpp"
 #include <filesystem>
 
 namespace cardan::program {
 
-void add_profile_options(CommandLine& app, AirArguments& a) {
-    app.add_option("--air", a.file, "profiles: the main file of AeroDyn 15, or windIO (default: those of the model)")
-        .type_name("FILE");
-    app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)");
+std::vector<Option> add_profile_options(CommandLine& app, AirArguments& a) {
+    return {app.add_option("--air", a.file,
+                           "profiles: the main file of AeroDyn 15, or windIO (default: those of the model)")
+                .type_name("FILE"),
+            app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)")
+                .positive()};
 }
 
-void add_air_options(CommandLine& app, AirArguments& a) {
-    add_profile_options(app, a);
-    app.add_option("--shear", a.shear, "exponent of the wind's profile over the height");
-    app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left");
-    app.add_option("--upflow", a.upflow, "of the wind, deg");
-    app.add_flag("--no-tower", a.no_tower,
-                 "without the tower's influence on the wind, and the air's drag on tower and nacelle");
-    app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake");
+std::vector<Option> add_air_options(CommandLine& app, AirArguments& a) {
+    std::vector<Option> all = add_profile_options(app, a);
+    all.push_back(app.add_option("--shear", a.shear, "exponent of the wind's profile over the height").finite());
+    all.push_back(
+        app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left")
+            .finite());
+    all.push_back(app.add_option("--upflow", a.upflow, "of the wind, deg").finite());
+    all.push_back(app.add_flag("--no-tower", a.no_tower,
+                               "without the tower's influence on the wind, and the air's drag on tower and nacelle"));
+    all.push_back(app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake"));
+    return all;
 }
 
-void add_wake_option(CommandLine& app, AirArguments& a) {
-    app.add_option("--wake", a.wake,
-                   "quasi-steady: induced velocities in equilibrium with the loads; none: there are none")
+Option add_wake_option(CommandLine& app, AirArguments& a) {
+    return app
+        .add_option("--wake", a.wake,
+                    "quasi-steady: induced velocities in equilibrium with the loads; none: there are none")
         .one_of({"quasi-steady", "none"});
 }
 
@@ -42,13 +47,13 @@ turbines::AirSettings settings_of(const AirArguments& a) {
             .induction = a.wake != "none"};
 }
 
-void take_air(turbines::Machine& machine, const AirArguments& arguments, bool all_notes) {
+void take_air(turbines::Machine& machine, const AirArguments& arguments, MachineOptions& options) {
     if (!arguments.file.empty()) machine.air = turbines::read_air(arguments.file, machine);
     if (!machine.air)
         throw InputError("--air", "value", text("none, and ", machine.no_air),
                          "FILE, the main file of AeroDyn, or windIO");
     machine.no_air.clear();
-    print_notes(machine.air->notes, all_notes);
+    print_notes(machine.air->notes, options);
 }
 
 turbines::WindSource wind_source(const std::string& given) {

@@ -6,8 +6,10 @@
 #include "turbines/machine/machine.hpp"
 
 #include "programs/shared/command_line.hpp"
+#include "programs/shared/machine_file.hpp"
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cardan::program {
 
@@ -20,16 +22,17 @@ struct AirArguments {
     std::string wake = "quasi-steady";  ///< "none": no induced velocities
 };
 /// Of these, file and density alone.
-void add_profile_options(CommandLine& app, AirArguments& arguments);
-void add_air_options(CommandLine& app, AirArguments& arguments);
+/// @return the options
+std::vector<Option> add_profile_options(CommandLine& app, AirArguments& arguments);
+std::vector<Option> add_air_options(CommandLine& app, AirArguments& arguments);
 /// Of commands whose wake is in equilibrium, or none.
-void add_wake_option(CommandLine& app, AirArguments& arguments);
+Option add_wake_option(CommandLine& app, AirArguments& arguments);
 /// In the library's own terms.
 turbines::AirSettings settings_of(const AirArguments& arguments);
 
 /// Puts the airfoils that were asked for in the place of the machine's, and prints the notes on those it has then.
 /// @throws InputError for a machine without airfoils; as the readers
-void take_air(turbines::Machine& machine, const AirArguments& arguments, bool all_notes);
+void take_air(turbines::Machine& machine, const AirArguments& arguments, MachineOptions& options);
 
 inline constexpr const char* wind_file_format =
     "SPEED in m/s, or FILE: CSV with time[s],speed[m/s] and more, InflowWind's main file, or a result (.h5) in the "

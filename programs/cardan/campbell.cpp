@@ -44,14 +44,17 @@ void declare(CommandLine& app, CampbellArguments& a) {
                    "machine's controller, if it has one); --pitch sets one angle");
     add_machine_options(app, a.machine);
     app.add_option(
-        "--max-frequency", a.max_frequency,
-        "follow modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)");
+           "--max-frequency", a.max_frequency,
+           "follow modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)")
+        .positive();
     app.add_flag("--gravity", a.machine.gravity, "with gravity");
-    add_vibration_options(app, a.air);
+    const Option wind = add_vibration_options(app, a.air);
     app.add_flag("--floquet", a.air.floquet,
-                 "with --wind, Floquet's theory about the periodic state in the place of the mean over the azimuth");
+                 "with --wind, Floquet's theory about the periodic state in the place of the mean over the azimuth")
+        .only_with(wind);
     app.add_flag("--air-roots", a.air_roots,
-                 "with --wind, compute all roots that are mostly states of the air, and draw them as well");
+                 "with --wind, compute all roots that are mostly states of the air, and draw them as well")
+        .only_with(wind);
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _campbell)");
 }
 
@@ -129,24 +132,18 @@ void write(const turbines::CampbellDiagram& diagram, const CampbellArguments& a)
     write_files_and_roots(diagram, diagram, a.out, picture);
 }
 
-// That every option has its meaning: the wind's machine runs otherwise.
-void check_wind(const CampbellArguments& a) {
-    if (!a.rpm.empty()) throw InputError("--rpm", "value", a.rpm, "none beside --wind: see --schedule");
-    if (!a.pitch_schedule.empty())
-        throw InputError("--pitch-schedule", "value", a.pitch_schedule, "none beside --wind: see --schedule");
-}
-
 int run(CampbellArguments& a, const CommandLine& command) {
-    turbines::Machine machine = prepared_machine(a.machine);
     const bool windy = !a.air.wind.speeds.empty();
-    if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "campbell_wind" : "campbell");
-    if (windy) {
-        check_wind(a);
-        take_wind(machine, a.air.wind, a.machine.notes);
-    }
+    check_wind(a.air.wind, a.rpm);
+    if (windy && !a.pitch_schedule.empty())
+        throw InputError("--pitch-schedule", "value", a.pitch_schedule, "none beside --wind: see --schedule");
     const turbines::CampbellSettings settings = settings_of(a);
+    if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "campbell_wind" : "campbell");
     if (windy) check_outputs(a.out, {"_roots.svg", "_roots.png"});
     check_outputs(a.out, {".h5", ".csv", ".svg", ".png"});
+    turbines::Machine machine = prepared_machine(a.machine);
+    if (windy) take_wind(machine, a.air.wind, a.machine);
+    stop_at_once();  // until a point is done
     turbines::CampbellDiagram diagram = turbines::campbell(machine, settings);
     stop_at_once();
     if (a.machine.summary) std::cout << diagram.turbine->summary() << "\n";

@@ -13,6 +13,12 @@ _cardan_words() { # COMMAND: its options, the values they allow and the built-in
 _cardan() {
     local program="${COMP_WORDS[0]}" command="${COMP_WORDS[1]:-}" word="${COMP_WORDS[COMP_CWORD]}"
     local previous="${COMP_WORDS[COMP_CWORD - 1]}" words=""
+    # Bash takes --wake=dynamic as three words.
+    if [[ "$word" == = ]]; then
+        word=""
+    elif [[ "$previous" == = ]]; then
+        previous="${COMP_WORDS[COMP_CWORD - 2]}"
+    fi
     if ((COMP_CWORD == 1)); then
         words="$(_cardan_words commands "$program") help --help --version"
     elif [[ "$command" == help ]]; then

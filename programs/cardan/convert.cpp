@@ -58,11 +58,11 @@ void write_csv(const ConvertArguments& a) {
 }
 
 void write_yaml(ConvertArguments& a) {
-    const turbines::Machine machine = prepared_machine(a.machine);
     std::error_code error;
     if (std::filesystem::equivalent(a.to, a.machine.model, error))
         throw InputError("to", "file", a.to, "another one than the machine's");
-    if (machine.air) print_notes(machine.air->notes, a.machine.notes);
+    const turbines::Machine machine = prepared_machine(a.machine);
+    if (machine.air) print_notes(machine.air->notes, a.machine);
     turbines::write_machine(machine, a.to);
     std::cout << a.to << ": " << machine.description.name << "\n";
     if (!machine.air) std::cout << "note: without air: " << machine.no_air << "\n";
@@ -70,12 +70,14 @@ void write_yaml(ConvertArguments& a) {
 
 int run(ConvertArguments& a, const CommandLine& /*command*/) {
     stop_at_once();
-    if (turbines::is_yaml(a.to))
-        write_yaml(a);
-    else if (std::filesystem::path(a.to).extension() == ".csv")
-        write_csv(a);
-    else
+    const bool yaml = turbines::is_yaml(a.to);
+    if (!yaml && std::filesystem::path(a.to).extension() != ".csv")
         throw InputError("to", "file", a.to, "one that ends in .yaml (a machine) or .csv (a time history)");
+    check_outputs(a.to, {""});
+    if (yaml)
+        write_yaml(a);
+    else
+        write_csv(a);
     return std::cout.flush() ? 0 : 1;
 }
 

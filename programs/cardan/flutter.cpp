@@ -59,7 +59,8 @@ void declare(CommandLine& app, FlutterArguments& a) {
     app.add_flag("--steady-profiles", a.steady_profiles,
                  "lift, drag and moment follow the angle of attack at once: flutter then comes early");
     app.add_option("--max-frequency", a.max_frequency,
-                   "follow modes up to this frequency, Hz (default: 1.5 times the first torsion at rest)");
+                   "follow modes up to this frequency, Hz (default: 1.5 times the first torsion at rest)")
+        .positive();
     app.add_flag("--air-roots", a.air_roots, "draw the roots that are mostly states of the air as well");
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _flutter)");
 }
@@ -76,19 +77,21 @@ struct SpeedRange {
     double first, last;  // rad/s
 };
 
-SpeedRange speed_range(FlutterArguments& a, const turbines::Machine& machine) {
-    constexpr auto format = "FIRST:LAST, rev/min, 0 < FIRST < LAST";
-    const double own = machine.operation.rotor_speed * units::to_rpm;
-    if (a.rpm.empty()) {
-        if (!(own > 0)) throw InputError("--rpm", "value", "none, and the model names no rotor speed", format);
-        a.rpm = text(digits(slowest * own), ":", digits(fastest * own));
-    }
-    const std::vector<std::string> words = split(a.rpm, ':');
-    if (words.size() != 2) throw InputError("--rpm", "value", a.rpm, format);
-    const SpeedRange range{number("--rpm", a.rpm, words[0], format) * units::rpm,
-                           number("--rpm", a.rpm, words[1], format) * units::rpm};
-    if (!(range.first > 0 && range.last > range.first)) throw InputError("--rpm", "value", a.rpm, format);
+constexpr auto range_format = "FIRST:LAST, rev/min, 0 < FIRST < LAST";
+
+SpeedRange speed_range(const std::string& given) {
+    const std::vector<std::string> words = split(given, ':');
+    if (words.size() != 2) throw InputError("--rpm", "value", given, range_format);
+    const SpeedRange range{number("--rpm", given, words[0], range_format) * units::rpm,
+                           number("--rpm", given, words[1], range_format) * units::rpm};
+    if (!(range.first > 0 && range.last > range.first)) throw InputError("--rpm", "value", given, range_format);
     return range;
+}
+
+std::string usual_range(const turbines::Machine& machine) {
+    const double own = machine.operation.rotor_speed * units::to_rpm;
+    if (!(own > 0)) throw InputError("--rpm", "value", "none, and the model names no rotor speed", range_format);
+    return text(digits(slowest * own), ":", digits(fastest * own));
 }
 
 turbines::Turbine blade_of(const turbines::Machine& machine, const MachineOptions& options) {
@@ -224,16 +227,17 @@ void print_limits(const solvers::StabilityLimits& found, const turbines::Machine
 }
 
 int run(FlutterArguments& a, const CommandLine& command) {
-    turbines::Machine machine = prepared_machine(a.machine);
+    if (!a.rpm.empty()) static_cast<void>(speed_range(a.rpm));
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "flutter");
-    const SpeedRange range = speed_range(a, machine);
-    take_air(machine, a.air, a.machine.notes);
+    check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_roots.svg", "_roots.png"});
+    turbines::Machine machine = prepared_machine(a.machine);
+    if (a.rpm.empty()) a.rpm = usual_range(machine);
+    const SpeedRange range = speed_range(a.rpm);
+    take_air(machine, a.air, a.machine);
     const turbines::Aerodynamics air = air_for_torsion(machine, a);
     set_pitch(machine, a.machine, machine.operation.rotor_speed);
     if (!a.max_frequency) a.max_frequency = modes_up_to * torsion_hz(machine, a.machine);
     const turbines::PreparedTurbine ready = ready_machine(machine, a.machine, *a.max_frequency, range.last);
-    check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_roots.svg", "_roots.png"});
-
     const turbines::Turbine blade = blade_of(machine, a.machine);
     const std::string answer = turbines::air_in_words("none", profiles_lag(air, a));
     std::cout << "air of the blade: " << answer << "\n";

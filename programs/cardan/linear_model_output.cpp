@@ -72,12 +72,15 @@ void introduce(const solvers::LinearModel& model, double rpm, const solvers::Mul
 }
 
 void write_files(const solvers::LinearModel& model, const std::vector<solvers::NamedModel>& constant,
-                 const std::string& prefix) {
+                 const std::string& prefix, bool lin) {
     solvers::write_hdf5(model, constant, prefix + ".h5");
     solvers::write_mat(model, constant, prefix + ".mat");
-    const auto files = solvers::write_lin(model, prefix);
-    std::printf("\nfiles: %s.h5, %s.mat, %s ... %zu files\n", prefix.c_str(), prefix.c_str(),
-                files.front().string().c_str(), files.size());
+    std::printf("\nfiles: %s.h5, .mat", prefix.c_str());
+    if (lin) {
+        const auto files = solvers::write_lin(model, prefix);
+        std::printf(", %s ... %zu files", files.front().string().c_str(), files.size());
+    }
+    std::printf("\n");
 }
 
 }  // namespace cardan::program

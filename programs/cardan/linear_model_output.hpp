@@ -25,8 +25,8 @@ void print_modes(const solvers::ConstantModel& model, const std::optional<solver
 /// @param max_frequency  Hz, up to which it does
 void print(const solvers::ConstantModel& fixed, const solvers::BalancedModel& small, double max_frequency);
 
-/// PREFIX.h5, PREFIX.mat, PREFIX.1.lin, ...  @throws FileError
+/// PREFIX.h5, PREFIX.mat, and where they are asked for PREFIX.1.lin, ...  @throws FileError
 void write_files(const solvers::LinearModel& model, const std::vector<solvers::NamedModel>& constant,
-                 const std::string& prefix);
+                 const std::string& prefix, bool lin);
 
 }  // namespace cardan::program

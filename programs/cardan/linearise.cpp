@@ -38,6 +38,7 @@ struct LineariseArguments {
     std::optional<double> rpm, max_frequency;
     double error = 5, azimuth = 0;
     int azimuths = 24, order = 0;
+    bool lin = false;
 };
 
 void declare(CommandLine& app, LineariseArguments& a) {
@@ -49,12 +50,14 @@ void declare(CommandLine& app, LineariseArguments& a) {
                    "frequency; its order follows");
     app.add_option("--order", a.order, "order of the balanced model instead (0: by the error)");
     add_station_options(app, a.stations);
+    app.add_flag("--lin", a.lin, "write files of OpenFAST's linearisation too, one per azimuth: PREFIX.1.lin ...");
     app.add_option("--out", a.out, "prefix of the files");
     app.add_option("--max-frequency", a.max_frequency,
                    "modes are printed, and the balanced model is right, up to this frequency, Hz (default: 1.3 times "
                    "the third of the blade, clamped and at rest)");
     app.add_option("--azimuth", a.azimuth,
-                   "of a periodic model that is given as a constant one, deg; the nearest there is");
+                   "of a periodic model that is given as a constant one, deg; the nearest there is")
+        .finite();
     app.add_flag("--gravity", a.machine.gravity, "about the periodic steady state under gravity");
     add_vibration_options(app, a.air);
     add_machine_options(app, a.machine);
@@ -64,7 +67,9 @@ void require_numbers(const LineariseArguments& a) {
     if (a.rpm && (!std::isfinite(*a.rpm) || *a.rpm < 0)) throw InputError("--rpm", "value", *a.rpm, ">= 0");
     if (a.max_frequency) require_positive("--max-frequency", "value [Hz]", *a.max_frequency);
     require_positive("--error", "value [%]", a.error);
-    if (a.azimuths > 720) throw InputError("--azimuths", "value", a.azimuths, "at most 720");
+    if (a.azimuths < 1 || a.azimuths > 720) throw InputError("--azimuths", "value", a.azimuths, "1 ... 720");
+    if (a.order < 0) throw InputError("--order", "value", a.order, ">= 0");
+    static_cast<void>(stations_of(a.stations));
 }
 
 turbines::LinearModelSettings settings_of(const LineariseArguments& a) {
@@ -225,13 +230,17 @@ void print_constant(const turbines::MachineLinearModel& linear, const std::optio
 
 int run(LineariseArguments& a, const CommandLine& command) {
     const bool windy = !a.air.wind.speeds.empty();
-    turbines::Machine machine = prepared_machine(a.machine);
-    if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "linear_wind" : "linear");
+    check_wind(a.air.wind, a.rpm ? text(*a.rpm) : "");
     require_numbers(a);
-    if (windy && a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
-    if (windy) take_wind(machine, a.air.wind, a.machine.notes);
     const turbines::LinearModelSettings settings = settings_of(a);
-    check_outputs(a.out, {".h5", ".mat", ".1.lin"});
+    if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "linear_wind" : "linear");
+    check_outputs(a.out, {".h5", ".mat"});
+    if (a.lin) check_outputs(a.out, {".1.lin"});
+    turbines::Machine machine = prepared_machine(a.machine);
+    check_stations(machine, a.machine, a.stations);
+    if (windy) take_wind(machine, a.air.wind, a.machine);
+    stop_at_once();  // nothing is kept
+    progress("linear model");
     turbines::MachineLinearModel linear = turbines::linear_model(machine, settings);
     keep_taken(linear.settings, a);
     if (a.machine.summary) std::cout << linear.turbine.summary() << "\n";
@@ -243,7 +252,8 @@ int run(LineariseArguments& a, const CommandLine& command) {
         print_periodic(linear, machine.description, modes);
     else
         print_constant(linear, modes);
-    write_files(linear.model, linear.constant, a.out);
+    end_progress();
+    write_files(linear.model, linear.constant, a.out, a.lin);
     return 0;
 }
 
@@ -253,7 +263,8 @@ int linearise_command(int argc, char** argv) {
     return run_command<LineariseArguments>(
         "cardan linearise",
         "Linear model of any machine at a rotor speed, or with --wind at an operating point, for control design.\n"
-        "Writes PREFIX.h5, PREFIX.mat and PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints the modes.\n"
+        "Writes PREFIX.h5 and PREFIX.mat, with --lin also PREFIX.1.lin, PREFIX.2.lin ... (one per azimuth), and prints "
+        "the modes.\n"
         "Three and more equal blades: in multi-blade coordinates, averaged over the azimuth, and reduced. Two blades "
         "or blades that differ: the model is periodic, and is given at all azimuths.",
         argc, argv, declare, run);

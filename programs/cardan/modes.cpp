@@ -28,10 +28,11 @@ struct ModesArguments {
 
 void declare(CommandLine& app, ModesArguments& a) {
     add_machine(app, a.machine);
-    app.add_option("--rpm", a.rpm, "rotor speed, rev/min");
+    app.add_option("--rpm", a.rpm, "rotor speed, rev/min").not_negative();
     add_machine_options(app, a.machine);
     app.add_option("--max-frequency", a.max_frequency,
-                   "modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)");
+                   "modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)")
+        .positive();
     app.add_flag("--gravity", a.machine.gravity, "with gravity");
     app.add_flag("--shapes", a.shapes, "draw the shapes: PREFIX/<mode>_<rpm>rpm.svg, .png");
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _modes)");
@@ -71,18 +72,16 @@ void print(const solvers::Campbell& diagram) {
 }
 
 int run(ModesArguments& a, const CommandLine& command) {
-    const turbines::Machine machine = prepared_machine(a.machine);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "modes");
     check_outputs(a.out, {".h5", ".csv"});
+    const turbines::Machine machine = prepared_machine(a.machine);
+    stop_at_once();  // nothing is kept
     turbines::CampbellDiagram diagram = turbines::campbell(machine, {.rotor_speeds = {a.rpm * units::rpm},
                                                                      .machine = numbers_of(a.machine),
                                                                      .gravity = a.machine.gravity,
                                                                      .max_frequency_hz = a.max_frequency,
-                                                                     .report = remarks_printed(a.machine.notes),
-                                                                     .cancelled = interrupted});
-    stop_at_once();
+                                                                     .report = remarks_printed(a.machine.notes)});
     if (a.machine.summary) std::cout << diagram.turbine->summary() << "\n";
-    if (diagram.points.empty()) return 130;
     keep_taken(diagram.settings.machine, a.machine);
     a.max_frequency = diagram.settings.max_frequency_hz;
     diagram.source = run_text("modes", command) + diagram.source;

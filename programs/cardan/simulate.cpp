@@ -137,7 +137,7 @@ int run(SimulateArguments& a, const CommandLine& command) {
     turbines::Machine machine = prepared_machine(a.machine);
     const bool in_air = a.wind.empty() ? machine.run && machine.run->air : a.wind != "none";
     // Air of the model's own run that it cannot have is the library's to refuse.
-    if (in_air && (machine.air || !a.air.file.empty() || !a.wind.empty())) take_air(machine, a.air, a.machine.notes);
+    if (in_air && (machine.air || !a.air.file.empty() || !a.wind.empty())) take_air(machine, a.air, a.machine);
     turbines::Simulation simulated = simulation(a, machine);
     if (a.list) return print(simulated.channels()), 0;
     const turbines::MachineLayout& layout = simulated.turbine().layout();

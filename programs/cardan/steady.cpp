@@ -41,16 +41,16 @@ struct SteadyArguments {
 
 void declare(CommandLine& app, SteadyArguments& a) {
     add_machine(app, a.machine);
-    app.add_option("--rpm", a.rpm, "rotor speed, rev/min (default: the machine's)");
-    app.add_option("--azimuth", a.azimuth, "azimuth of blade 1 at rest, deg, zero upward");
+    app.add_option("--rpm", a.rpm, "rotor speed, rev/min (default: the machine's)").finite();
+    app.add_option("--azimuth", a.azimuth, "azimuth of blade 1 at rest, deg, zero upward").finite();
     app.add_option("--azimuths", a.revolution.azimuths, "azimuths per revolution that are written").range(4, 100000);
     app.add_option("--harmonics", a.revolution.harmonics, "harmonics of the revolution that are balanced")
         .range(1, 200);
     app.add_flag("--no-gravity", a.no_gravity, "without gravity");
     app.add_flag("--all", a.all, "print all channels, not only the main ones");
     add_station_options(app, a.revolution.stations);
-    add_wind_options(app, a.wind);
-    add_wake_option(app, a.wind.air);
+    const Option wind = add_wind_options(app, a.wind);
+    add_wake_option(app, a.wind.air).only_with(wind);
     add_machine_options(app, a.machine);
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _steady)");
 }
@@ -100,22 +100,29 @@ void write(const solvers::History& history, const std::string& path, const std::
 
 int run(SteadyArguments& a, const CommandLine& command) {
     a.machine.gravity = !a.no_gravity;
+    const bool windy = !a.wind.speeds.empty();
+    check_wind(a.wind, a.rpm ? text(*a.rpm) : "");
+    if (windy && a.all) throw InputError("--all", "value", "given", "none beside --wind");
+    if (windy && a.azimuth != 0) throw InputError("--azimuth", "value", a.azimuth, "none beside --wind");
+    const std::vector<double> winds = winds_of(a.wind);
+    static_cast<void>(stations_of(a.revolution.stations));
+    if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "wind" : "steady");
+    check_outputs(a.out, {".h5", ".svg", ".png"});
+    if (windy) check_outputs(a.out, wind_outputs);
     turbines::Machine machine = prepared_machine(a.machine);
-    if (a.out.empty()) a.out = default_prefix(a.machine.model, a.wind.speeds.empty() ? "steady" : "wind");
-    if (!a.wind.speeds.empty()) {
-        if (a.rpm) throw InputError("--rpm", "value", *a.rpm, "none beside --wind: see --schedule");
-        take_wind(machine, a.wind, a.machine.notes);
-        return steady_in_wind(machine, a.machine, a.wind, a.revolution, a.out, command);
+    check_stations(machine, a.machine, a.revolution.stations);
+    if (windy) {
+        take_wind(machine, a.wind, a.machine);
+        return steady_in_wind(machine, a.machine, a.wind, winds, a.revolution, a.out, command);
     }
+    stop_at_once();  // nothing is kept
     const double speed = rotor_speed(a.rpm, machine);
     a.rpm = turbines::in_unit(speed, units::rpm);
     set_pitch(machine, a.machine, speed);
     const turbines::PreparedTurbine ready =
         ready_machine(machine, a.machine, usual_frequency(machine, a.machine), std::abs(speed));
     const turbines::Turbine& turbine = ready.turbine;
-    check_outputs(a.out, {".h5", ".svg", ".png"});
     const Revolution states = revolution(turbine, speed, a);
-    stop_at_once();
     const std::vector<ChannelGroup> groups = channels_of(turbine, a.revolution.stations);
     const solvers::History history = history_of(turbine.system(), groups, states.states,
                                                 text(machine.description.name, ", steady at ", *a.rpm, " rpm"));

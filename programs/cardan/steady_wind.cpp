@@ -25,6 +25,7 @@ void tell_mesh(const turbines::WindRun& run, const WindResults& results, const R
     if (run.ready.turbine.layout().blades.empty() || !dofs_of(run.machine.description).blades) return;
     const auto largest = std::ranges::max_element(results.points, {}, &turbines::WindPoint::thrust);
     const double wind = largest->operation.wind;
+    progress(text("wind speed ", wind, " m/s with twice as many elements"));
     turbines::FinerPoint finer = finer_point(run, largest->operation);
     if (!finer.point.converged) {
         std::printf("with twice as many elements no steady state was found at %g m/s\n", wind);
@@ -38,8 +39,9 @@ void tell_mesh(const turbines::WindRun& run, const WindResults& results, const R
 }
 
 turbines::WindRunOptions run_options(const turbines::Machine& machine, const MachineOptions& options,
-                                     const WindArguments& wind, const RevolutionOptions& revolution) {
-    return {.winds = winds_of(wind),
+                                     const WindArguments& wind, const std::vector<double>& winds,
+                                     const RevolutionOptions& revolution) {
+    return {.winds = winds,
             .operation = operation_of(wind),
             .air = settings_of(wind.air),
             .machine = numbers_of(options),
@@ -61,12 +63,13 @@ int exit_code(const turbines::WindRun& run) {
 }  // namespace
 
 int steady_in_wind(const turbines::Machine& machine, MachineOptions& options, const WindArguments& wind,
-                   const RevolutionOptions& revolution, const std::string& prefix, const CommandLine& command) {
+                   const std::vector<double>& winds, const RevolutionOptions& revolution, const std::string& prefix,
+                   const CommandLine& command) {
     const turbines::TurbineDescription& d = machine.description;
-    turbines::WindRun run = turbines::wind_run(machine, run_options(machine, options, wind, revolution));
+    stop_at_once();  // until a point is done
+    turbines::WindRun run = turbines::wind_run(machine, run_options(machine, options, wind, winds, revolution));
     keep_taken(run.options.machine, options);
     if (options.summary) std::cout << run.ready.turbine.summary() << "\n";
-    check_outputs(prefix, {".h5", ".csv", ".svg", ".png"});
     turbines::find_points(run);
     stop_at_once();
     if (run.points.empty()) return run.complete ? 1 : 130;

@@ -2,9 +2,11 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/analysis/rising.hpp"
 #include "turbines/machine/read_machine.hpp"
 
 #include "programs/shared/program.hpp"
+#include "programs/shared/remarks.hpp"
 #include "programs/shared/words.hpp"
 
 namespace cardan::program {
@@ -15,37 +17,54 @@ constexpr auto wind_format = "numbers and FIRST:LAST:STEP separated by commas, m
 
 }  // namespace
 
-void add_wind_options(CommandLine& app, WindArguments& a) {
-    app.add_option("--wind", a.speeds, std::string("wind speeds at the hub's height, ") + wind_format);
-    app.add_option("--schedule", a.schedule,
-                   "how the machine runs: CSV with the columns wind[m/s],rotor_speed[rpm],pitch[deg] (default: the "
-                   "machine's, if it has one; else variable speed with the following options)")
-        .type_name("FILE");
-    app.add_option("--rated-power", a.rated_power, "of the air on the rotor, kW (default: the machine's controller's)");
-    app.add_option("--rated-rpm", a.rated_rpm, "rotor speed from rated wind on, rev/min (default: the machine's)");
-    app.add_option("--least-rpm", a.least_rpm,
-                   "rotor speed at least, rev/min (default: that of the machine's controller)");
-    app.add_option(
-        "--tip-speed-ratio", a.tip_speed_ratio,
-        "below rated power (default: that of the machine's controller, or of the largest power coefficient)");
-    add_air_options(app, a.air);
+Option add_wind_options(CommandLine& app, WindArguments& a) {
+    Option wind = app.add_option("--wind", a.speeds, std::string("wind speeds at the hub's height, ") + wind_format);
+    std::vector<Option> beside = add_air_options(app, a.air);
+    beside.push_back(
+        app.add_option("--schedule", a.schedule,
+                       "how the machine runs: CSV with the columns wind[m/s],rotor_speed[rpm],pitch[deg] (default: the "
+                       "machine's, if it has one; else variable speed with the following options)")
+            .type_name("FILE"));
+    beside.push_back(app.add_option("--rated-power", a.rated_power,
+                                    "of the air on the rotor, kW (default: the machine's controller's)")
+                         .positive());
+    beside.push_back(
+        app.add_option("--rated-rpm", a.rated_rpm, "rotor speed from rated wind on, rev/min (default: the machine's)")
+            .positive());
+    beside.push_back(app.add_option("--least-rpm", a.least_rpm,
+                                    "rotor speed at least, rev/min (default: that of the machine's controller)")
+                         .not_negative());
+    beside.push_back(
+        app.add_option("--tip-speed-ratio", a.tip_speed_ratio,
+                       "below rated power (default: that of the machine's controller, or of the largest power "
+                       "coefficient)")
+            .positive());
+    for (Option& option : beside) option.only_with(wind);
+    return wind;
 }
 
 bool WindArguments::sets_law() const {
     return tip_speed_ratio || rated_power || rated_rpm || least_rpm > 0;
 }
 
-void take_wind(turbines::Machine& machine, const WindArguments& wind, bool all_notes) {
-    take_air(machine, wind.air, all_notes);
-    if (wind.schedule.empty()) return;
-    if (wind.sets_law())
+void check_wind(const WindArguments& wind, const std::string& rpm) {
+    if (wind.speeds.empty()) return;
+    if (!rpm.empty()) throw InputError("--rpm", "value", rpm, "none beside --wind: see --schedule");
+    if (!wind.schedule.empty() && wind.sets_law())
         throw InputError("--schedule", "file", wind.schedule,
                          "none beside --rated-power, --rated-rpm, --least-rpm, --tip-speed-ratio");
+}
+
+void take_wind(turbines::Machine& machine, const WindArguments& wind, MachineOptions& options) {
+    take_air(machine, wind.air, options);
+    if (wind.schedule.empty()) return;
     machine.operation.schedule = turbines::read_schedule(wind.schedule);
 }
 
 std::vector<double> winds_of(const WindArguments& wind) {
-    return wind.speeds.empty() ? std::vector<double>() : numbers_in_ranges("--wind", wind.speeds, wind_format);
+    if (wind.speeds.empty()) return {};
+    return turbines::rising(numbers_in_ranges("--wind", wind.speeds, wind_format), "--wind", "wind speeds", 1, "m/s",
+                            print_remark);
 }
 
 turbines::OperationSettings operation_of(const WindArguments& wind) {
@@ -57,16 +76,20 @@ turbines::OperationSettings operation_of(const WindArguments& wind) {
     return own;
 }
 
-void add_vibration_options(CommandLine& app, VibrationArguments& a) {
-    add_wind_options(app, a.wind);
-    app.add_option("--wake", a.wind.air.wake,
-                   "how the induced velocities follow a vibration: frozen (not at all), quasi-steady (at once) or "
-                   "dynamic; none: there are none")
-        .one_of({"frozen", "quasi-steady", "dynamic", "none"});
-    app.add_flag("--steady-profiles", a.steady_profiles,
-                 "lift, drag and moment follow the angle of attack at once, also where the profiles' data have lags");
-    app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced, with --wind")
-        .range(1, 200);
+Option add_vibration_options(CommandLine& app, VibrationArguments& a) {
+    const Option wind = add_wind_options(app, a.wind);
+    std::vector<Option> beside{
+        app.add_option("--wake", a.wind.air.wake,
+                       "how the induced velocities follow a vibration: frozen (not at all), quasi-steady (at once) or "
+                       "dynamic; none: there are none")
+            .one_of({"frozen", "quasi-steady", "dynamic", "none"}),
+        app.add_flag("--steady-profiles", a.steady_profiles,
+                     "lift, drag and moment follow the angle of attack at once, also where the profiles' data have "
+                     "lags"),
+        app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced, with --wind")
+            .range(1, 200)};
+    for (Option& option : beside) option.only_with(wind);
+    return wind;
 }
 
 turbines::VibrationSettings vibration_of(const VibrationArguments& a) {
@@ -76,7 +99,8 @@ turbines::VibrationSettings vibration_of(const VibrationArguments& a) {
 }
 
 void show_progress(const char* what, int done, int total) {
-    progress(text("\r", what, " ", done, " of ", total, done == total ? "\n" : ""));
+    if (done == 1) keep_from_here();
+    progress(text(what, " ", done, " of ", total, done == total ? "\n" : ""));
 }
 
 }  // namespace cardan::program

@@ -22,9 +22,10 @@ struct WindArguments {
 
     bool sets_law() const;  ///< is there an option of variable speed?
 };
-void add_wind_options(CommandLine& app, WindArguments& arguments);
+/// @return --wind
+Option add_wind_options(CommandLine& app, WindArguments& arguments);
 
-/// m/s; empty: no wind.  @throws InputError
+/// m/s, rising; empty: no wind.  @throws InputError naming the option
 std::vector<double> winds_of(const WindArguments& arguments);
 turbines::OperationSettings operation_of(const WindArguments& arguments);
 
@@ -36,13 +37,17 @@ struct VibrationArguments {
 
     VibrationArguments() { wind.air.wake = "dynamic"; }
 };
-void add_vibration_options(CommandLine& app, VibrationArguments& arguments);
+Option add_vibration_options(CommandLine& app, VibrationArguments& arguments);
 turbines::VibrationSettings vibration_of(const VibrationArguments& arguments);
 
-/// Reads the airfoils and the schedule that were asked for, which are the machine's from then on.
-/// @throws InputError for a schedule beside options of variable speed, and as take_air()
-void take_wind(turbines::Machine& machine, const WindArguments& wind, bool all_notes);
+/// @param rpm  --rpm; empty: it is not given
+/// @throws InputError for a schedule beside options of variable speed, and for a rotor speed beside the wind
+void check_wind(const WindArguments& wind, const std::string& rpm);
 
-/// For people: "wind speed 3 of 8", on a terminal.
+/// Reads the airfoils and the schedule that were asked for, which are the machine's from then on.
+/// @throws InputError as take_air()
+void take_wind(turbines::Machine& machine, const WindArguments& wind, MachineOptions& options);
+
+/// For people: "wind speed 3 of 8". From the first one on, what is done is kept when a signal comes.
 void show_progress(const char* what, int done, int total);
 }  // namespace cardan::program

@@ -7,12 +7,14 @@
 #include "solvers/pictures/stack.hpp"
 #include "turbines/model/channels.hpp"
 
+#include "programs/cardan/wind_curves.hpp"
 #include "programs/shared/channel_choice.hpp"
 #include "programs/shared/command_line.hpp"
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace cardan::program {
@@ -96,31 +98,6 @@ void append(std::string& row, double value) {
 
 void draw(const solvers::PanelStack& stack, const std::string& prefix) {
     for (const char* ending : {".svg", ".png"}) solvers::draw(stack, prefix + ending);
-}
-
-solvers::StackPanel panel(const WindResults& results, const char* label, std::initializer_list<Quantity> shown) {
-    solvers::StackPanel out{label, {}};
-    for (const Quantity& q : shown) {
-        solvers::StackCurve curve{q.long_name, winds_of(results), {}};
-        for (const WindPoint& point : results.points) curve.y.push_back(q.shown(point));
-        out.curves.push_back(std::move(curve));
-    }
-    return out;
-}
-
-// Mean, least and most of a channel; no curves: there is no such channel.
-solvers::StackPanel channel_panel(const WindResults& results, const char* label, const std::string& name,
-                                  double factor) {
-    solvers::StackPanel out{label, {}};
-    for (std::size_t i = 0; i < results.channels.size(); ++i) {
-        if (results.channels[i].name != name) continue;
-        for (const Statistic& statistic : statistics) {
-            solvers::StackCurve curve{text(name, ", ", statistic.name), winds_of(results), {}};
-            for (const auto& row : results.values) curve.y.push_back(factor * row[i].*statistic.of);
-            out.curves.push_back(std::move(curve));
-        }
-    }
-    return out;
 }
 
 }  // namespace
@@ -251,22 +228,8 @@ void write_hdf5(const WindResults& results, const std::string& path, const std::
 }
 
 void draw_points(const WindResults& results, const std::string& prefix) {
-    solvers::PanelStack stack;
-    stack.title = results.title;
-    stack.x_label = "wind speed in m/s";
-    stack.x_low = results.points.front().operation.wind;
-    stack.x_high = results.points.back().operation.wind;
-    stack.panels = {panel(results, "power in kW", {quantity::power}),
-                    panel(results, "thrust in kN", {quantity::thrust}),
-                    panel(results, "rotor speed in rpm", {quantity::rotor_speed}),
-                    panel(results, "pitch in deg", {quantity::pitch}),
-                    panel(results, "coefficients", {quantity::power_coefficient, quantity::thrust_coefficient})};
-    for (const solvers::StackPanel& one :
-         {channel_panel(results, "deflection in m", "blade 1 tip out-of-plane deflection", 1),
-          channel_panel(results, "twist in deg", "blade 1 tip twist", units::to_degrees),
-          channel_panel(results, "moment in kN m", "blade 1 root moment y", 1e-3)})
-        if (!one.curves.empty()) stack.panels.push_back(one);
-    draw(stack, prefix);
+    const WindCurves curves = curves_of(results);
+    for (const char* ending : {".svg", ".png"}) draw(std::span(&curves, 1), {}, results.title, prefix + ending);
 }
 
 void draw_sections(const WindResults& results, const std::string& prefix) {

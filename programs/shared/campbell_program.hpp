@@ -7,29 +7,35 @@
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/pictures/campbell.hpp"
 #include "solvers/pictures/roots.hpp"
+#include "turbines/analysis/rising.hpp"
 
 #include "programs/shared/program.hpp"
+#include "programs/shared/remarks.hpp"
 #include "programs/shared/words.hpp"
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 namespace cardan::program {
 
 inline constexpr auto rpm_format = "numbers and FIRST:LAST:STEP separated by commas, rev/min";
 
-/// The option --rpm: "0:12:1,12.1". That the speeds increase is checked by the solver.
-/// @return rad/s;  @throws InputError
+/// The option --rpm: "0:12:1,12.1", in rising order.
+/// @return rad/s;  @throws InputError naming the option
 inline std::vector<double> rotor_speeds(const std::string& given) {
     std::vector<double> speeds;
-    for (const NumberRange& range : ranges("--rpm", given, rpm_format))
+    for (const NumberRange& range : ranges("--rpm", given, rpm_format)) {
+        if (!(range.first >= 0 && range.last >= range.first && range.step > 0))
+            throw InputError("--rpm", "value", given, text(rpm_format, ", >= 0, FIRST <= LAST, STEP > 0"));
         for (const double speed : solvers::rpm_range(range.first, range.last, range.step)) speeds.push_back(speed);
-    return speeds;
+    }
+    return turbines::rising(std::move(speeds), "--rpm", "rotor speeds", units::rpm, "rpm", print_remark);
 }
 
 inline void speed_progress(int done, int total) {
-    progress(text("\rrotor speed ", done, " of ", total, done == total ? "\n" : ""));
+    progress(text("rotor speed ", done, " of ", total, done == total ? "\n" : ""));
 }
 
 /// With progress, and to be stopped by Ctrl-C.

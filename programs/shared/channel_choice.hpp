@@ -6,6 +6,7 @@
 #include "turbines/model/station_channels.hpp"
 
 #include "programs/shared/command_line.hpp"
+#include "programs/shared/machine_file.hpp"
 #include "programs/shared/words.hpp"
 #include <algorithm>
 #include <string>
@@ -33,6 +34,17 @@ inline std::vector<double> places(const char* option, const std::string& given) 
 
 inline turbines::Stations stations_of(const StationOptions& options) {
     return {.blades = places("--blade-stations", options.blades), .tower = places("--tower-stations", options.tower)};
+}
+
+/// Are all stations on the machine's blades and tower? Asked before the work.  @throws InputError
+inline void check_stations(const turbines::Machine& machine, const MachineOptions& machine_options,
+                           const StationOptions& options) {
+    const turbines::Stations stations = stations_of(options);
+    if (stations.blades.empty() && stations.tower.empty()) return;
+    MachineOptions coarse = machine_options;
+    coarse.blade_elements = coarse.tower_elements = 2;
+    const turbines::Turbine turbine = turbines::assemble(machine.description, assembly_options(machine, coarse));
+    static_cast<void>(turbines::station_channels(turbine, stations));
 }
 
 /// Those at the stations that were asked for.

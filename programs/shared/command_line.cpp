@@ -1,11 +1,29 @@
 #include "programs/shared/command_line.hpp"
 
+#include "mbs/base/error.hpp"
 #include "mbs/base/text.hpp"
 #include "mbs/base/version.hpp"
 
 #include <CLI/CLI.hpp>
 
 namespace cardan::program {
+
+namespace {
+
+// @param allowed  of the number; beside it: in words
+template <class Allowed>
+void require(CLI::Option& option, const Allowed& allowed, const char* words) {
+    option.check(CLI::Validator(
+        [&option, allowed, words](const std::string& given) {
+            const ReadNumber read = read_number(given);
+            if (read.fault == ReadNumber::no_number) return std::string();  // which CLI11 says
+            if (!read.good() || !allowed(read.value)) throw InputError(option.get_name(), "value", given, words);
+            return std::string();
+        },
+        ""));
+}
+
+}  // namespace
 
 Option& Option::required() {
     option_->required();
@@ -22,8 +40,21 @@ Option& Option::range(int least, int most) {
     return *this;
 }
 
+Option& Option::finite() {
+    require(
+        *option_, [](double) { return true; }, "finite");
+    return *this;
+}
+
 Option& Option::positive() {
-    option_->check(CLI::PositiveNumber);
+    require(
+        *option_, [](double value) { return value > 0; }, "finite and > 0");
+    return *this;
+}
+
+Option& Option::not_negative() {
+    require(
+        *option_, [](double value) { return value >= 0; }, "finite and >= 0");
     return *this;
 }
 
@@ -54,6 +85,16 @@ Option& Option::excludes(const Option& other) {
 
 Option& Option::needs(const Option& other) {
     option_->needs(other.option_);
+    return *this;
+}
+
+Option& Option::only_with(const Option& other) {
+    option_->check(CLI::Validator(
+        [own = option_, wanted = other.option_](const std::string& value) {
+            const bool idle = wanted->count() > 0 || value == own->get_default_str();
+            return idle ? std::string() : text("only with ", wanted->get_name());
+        },
+        ""));
     return *this;
 }
 

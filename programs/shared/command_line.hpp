@@ -26,7 +26,10 @@ public:
     Option& required();
     Option& one_of(const std::vector<std::string>& allowed);
     Option& range(int least, int most);
+    /// Of numbers that are out of range an error says so: InputError, thrown by CommandLine::parse().
+    Option& finite();
     Option& positive();
+    Option& not_negative();
     /// Separates the values within one word.
     Option& delimiter(char character);
     /// Every use takes one word; a list otherwise takes all words up to the next option.
@@ -37,6 +40,9 @@ public:
     Option& hide_default();
     Option& excludes(const Option& other);
     Option& needs(const Option& other);
+    /// For what means nothing without another option: other values than the default are refused where that is not
+    /// given. The default is what results hold that were made without it.
+    Option& only_with(const Option& other);
 
     /// "--name"
     std::string name() const;

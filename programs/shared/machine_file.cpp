@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <iterator>
+#include <set>
 #include <utility>
 
 namespace cardan::program {
@@ -52,6 +54,56 @@ void tell_dofs(const turbines::Machine& model, MachineOptions& a) {
         f.tower_fore_aft ? (f.tower_side_side ? "bends" : "fore-aft") : (f.tower_side_side ? "side-side" : "rigid");
 }
 
+// A note that several files have alike.
+struct SharedNote {
+    turbines::FileNote note;         // of the first one
+    std::vector<std::string> files;  // the others
+};
+
+std::vector<SharedNote> shared(const std::vector<turbines::FileNote>& notes) {
+    std::vector<SharedNote> all;
+    for (const turbines::FileNote& note : notes) {
+        const auto alike = std::ranges::find_if(all, [&](const SharedNote& other) {
+            return other.note.file != note.file && other.note.keyword == note.keyword &&
+                   other.note.value == note.value && other.note.why == note.why;
+        });
+        if (alike == all.end())
+            all.push_back({note, {}});
+        else
+            alike->files.push_back(std::filesystem::path(note.file).filename().string());
+    }
+    return all;
+}
+
+std::string in_words(const SharedNote& one) {
+    std::string others;
+    for (const std::string& file : one.files) others += text(others.empty() ? " (likewise " : ", ", file);
+    return text(to_text(one.note), others, others.empty() ? "" : ")");
+}
+
+// "notes: 83 entries of 5 files are not used, 4 are used otherwise; --notes lists them"
+std::string counted(const std::vector<SharedNote>& notes) {
+    using Kind = turbines::FileNote::Kind;
+    constexpr std::array words{std::pair(Kind::unused, "not used"), std::pair(Kind::otherwise, "used otherwise"),
+                               std::pair(Kind::left_out, "left out")};
+    std::set<std::string> files;
+    for (const SharedNote& one : notes) files.insert(one.note.file);
+    std::string line;
+    for (const auto& [kind, what] : words) {
+        std::size_t entries = 0;
+        for (const SharedNote& one : notes)
+            if (one.note.kind == kind) entries += one.note.entries();
+        if (entries == 0) continue;
+        line += text(line.empty() ? "notes: " : ", ", entries);
+        if (line.find(" of ") == std::string::npos)
+            line += text(entries == 1 ? " entry of " : " entries of ", files.size(),
+                         files.size() == 1 ? " file" : " files");
+        line += text(entries == 1 ? " is " : " are ", what);
+        if (kind == Kind::left_out) line += text(", though the model asks for ", entries == 1 ? "it" : "them");
+    }
+    return line + "; --notes lists them\n";
+}
+
 std::string dofs_in_words(const turbines::Machine& model) {
     const turbines::FileDofs f = dofs_of(model.description);
     std::string locked = f.generator ? "" : ", generator locked";
@@ -68,13 +120,29 @@ std::string dofs_in_words(const turbines::Machine& model) {
 }  // namespace
 
 void print_notes(const std::vector<turbines::FileNote>& notes, bool all) {
-    int groups = 0;
-    for (const turbines::FileNote& note : notes) {
-        const bool group = note.line == 0 && note.keyword != turbines::unusual_entries;
-        if (group) ++groups;
-        if (all || !group) std::cout << "note: " << to_text(note) << "\n";
-    }
-    if (!all && groups > 0) std::cout << groups << " more notes, on entries without meaning here: --notes\n";
+    const std::vector<SharedNote> once = shared(notes);
+    for (const SharedNote& one : once)
+        if (all || one.note.keyword == turbines::unusual_entries) std::cout << "note: " << in_words(one) << "\n";
+    if (!all && !once.empty()) std::cout << counted(once);
+}
+
+void print_notes(const std::vector<turbines::FileNote>& notes, MachineOptions& options) {
+    print_notes(notes, options.notes);
+    std::ranges::copy_if(notes, std::back_inserter(options.left_out), [](const turbines::FileNote& note) {
+        return note.kind == turbines::FileNote::Kind::left_out;
+    });
+}
+
+void print_left_out(const MachineOptions& options) {
+    constexpr std::size_t most = 8;
+    std::vector<std::string> names;
+    for (const turbines::FileNote& note : options.left_out)
+        if (std::ranges::find(names, note.keyword) == names.end()) names.push_back(note.keyword);
+    if (names.empty()) return;
+    std::cout << "left out, though the model asks for it: ";
+    for (std::size_t i = 0; i < std::min(most, names.size()); ++i) std::cout << (i > 0 ? ", " : "") << names[i];
+    if (names.size() > most) std::cout << " and " << names.size() - most << " more entries";
+    std::cout << (options.notes ? "; see the notes\n" : "; --notes says why\n");
 }
 
 std::string machine_help() {
@@ -124,13 +192,29 @@ void add_source_options(CommandLine& app, MachineOptions& options) {
         .type_name("FILE");
     app.add_option("--generator-inertia", options.generator_inertia,
                    "inertia of the generator on its own shaft, kg m^2, for models that do not give it")
+        .not_negative()
         .hide_default();
-    app.add_flag("--notes", options.notes, "print all notes; else those on groups of entries are only counted");
+    app.add_option("--blade-damping", options.blade_damping,
+                   "damping of the first flap mode of a blade, clamped and at rest, % of critical, growing with the "
+                   "frequency, in the place of all structural damping that the blades have (default: the model's)")
+        .not_negative();
+    app.add_option("--tower-damping", options.tower_damping,
+                   "likewise of the first bending mode of the tower, % (default: the model's)")
+        .not_negative();
+    app.add_option("--pitch-stiffness", options.pitch_stiffness,
+                   "spring in the pitch bearing of every blade, N m/rad (default: the model's)")
+        .positive();
+    app.add_option("--pitch-damping", options.pitch_damping,
+                   "damper beside this spring, N m s/rad (default: the model's)")
+        .not_negative();
+    app.add_flag("--notes", options.notes,
+                 "print what entries of the model's files are not used, or used otherwise; else they are counted");
 }
 
 void add_machine_options(CommandLine& app, MachineOptions& options) {
     add_source_options(app, options);
-    app.add_option("--pitch", options.pitch, "pitch of the blades, deg, leading edge upwind (default: the model's)");
+    app.add_option("--pitch", options.pitch, "pitch of the blades, deg, leading edge upwind (default: the model's)")
+        .finite();
     app.add_option("--blade-elements", options.blade_elements, "beam elements per blade (default: as many as it takes)")
         .range(1, 1000)
         .hide_default();
@@ -175,6 +259,10 @@ turbines::MachineSettings settings_of(const MachineOptions& a) {
     if (!a.blades.empty()) settings.blades = a.blades == "bend" ? BladeDof::bend : BladeDof::rigid;
     if (!a.foundation.empty()) settings.foundation = read_foundation(a.foundation);
     if (a.generator_inertia != 0) settings.generator_inertia = a.generator_inertia;
+    if (a.blade_damping) settings.blade_damping = *a.blade_damping / 100;
+    if (a.tower_damping) settings.tower_damping = *a.tower_damping / 100;
+    settings.pitch_stiffness = a.pitch_stiffness;
+    settings.pitch_damping = a.pitch_damping;
     return settings;
 }
 
@@ -189,7 +277,7 @@ turbines::Report remarks_printed(bool all_notes) {
 
 turbines::Machine prepared_machine(MachineOptions& options) {
     turbines::Machine machine = turbines::read_machine(options.model, additions_of(options));
-    print_notes(machine.notes, options.notes);
+    print_notes(machine.notes, options);
     machine = turbines::with_settings(std::move(machine), settings_of(options), remarks_printed(options.notes));
     tell_dofs(machine, options);
     std::cout << "degrees of freedom: " << dofs_in_words(machine) << "\n";

@@ -18,13 +18,17 @@ std::string machine_help();
 /// What programs for any machine ask about it.
 struct MachineOptions {
     std::string model;
-    std::string generator, yaw, tower, blades;   ///< of one_of(); empty: as the model says
-    std::string foundation;                      ///< file
-    std::vector<std::string> with, set;          ///< additions: files, KEY=VALUE
-    int blade_elements = 0, tower_elements = 0;  ///< 0: as many as it takes
-    std::optional<double> pitch;                 ///< deg; none: the model's
-    double generator_inertia = 0;                ///< 0: the model's
+    std::string generator, yaw, tower, blades;             ///< of one_of(); empty: as the model says
+    std::string foundation;                                ///< file
+    std::vector<std::string> with, set;                    ///< additions: files, KEY=VALUE
+    int blade_elements = 0, tower_elements = 0;            ///< 0: as many as it takes
+    std::optional<double> pitch;                           ///< deg; none: the model's
+    double generator_inertia = 0;                          ///< 0: the model's
+    std::optional<double> blade_damping, tower_damping;    ///< %
+    std::optional<double> pitch_stiffness, pitch_damping;  ///< N m/rad, N m s/rad
     bool gravity = false, undamped = false, notes = false, summary = false;
+    /// What the model's files ask for and the model does not have, as far as they have been read.
+    std::vector<turbines::FileNote> left_out = {};
 };
 
 /// The machine's argument.
@@ -34,8 +38,13 @@ void add_source_options(CommandLine& app, MachineOptions& options);
 /// The same, with pitch, numbers of elements, damping and what is printed; gravity is left to the program.
 void add_machine_options(CommandLine& app, MachineOptions& options);
 
-/// Prints notes; those on groups of entries without meaning are counted, unless `all` are wanted.
+/// Prints notes, if `all` are wanted, else how many there are, in a line, and those on unusual entries. What several
+/// files have alike, as those of blades, is one note.
 void print_notes(const std::vector<turbines::FileNote>& notes, bool all);
+/// The same, and keeps what is left out.
+void print_notes(const std::vector<turbines::FileNote>& notes, MachineOptions& options);
+/// In a line, behind a result: what is left out.
+void print_left_out(const MachineOptions& options);
 
 /// Reads the machine, prints notes, degrees of freedom and what the tower stands on, and puts what was asked for in the
 /// place of what the machine's source says. The options then hold what was taken in all cases.

@@ -1,5 +1,5 @@
 /// @file
-/// What the programs have in common: signals, errors and exit codes, progress, an early check of the output files.
+/// What the programs have in common: signals, errors and exit codes, an early check of the output files.
 #pragma once
 
 #include "mbs/base/error.hpp"
@@ -7,6 +7,7 @@
 
 #include "programs/shared/command_line.hpp"
 #include "programs/shared/option_names.hpp"
+#include "programs/shared/progress.hpp"
 #include <atomic>
 #include <csignal>
 #include <exception>
@@ -14,6 +15,7 @@
 #include <initializer_list>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <unistd.h>
 
 namespace cardan::program {
@@ -36,15 +38,18 @@ inline void handle_signals(void (*handler)(int)) {
         if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-/// For a last part that is short: from here on such a signal ends the program at once.
+/// For a last part that is short, or leaves nothing behind: from here on such a signal ends the program at once.
 inline void stop_at_once() {
     handle_signals(SIG_DFL);
+    end_progress();
 }
 
-/// For people only: nothing is written to files and pipes.
-inline void progress(const std::string& what) {
-    static const bool terminal = isatty(STDERR_FILENO) != 0;
-    if (terminal) std::cerr << what << std::flush;
+/// The first such signal asks the program to stop, which is told; the second one ends it.
+inline void ask_to_stop(int signal) {
+    constexpr std::string_view words = "\nstopping, and keeping what is done; once more: at once\n";
+    interrupt = signal;
+    handle_signals(SIG_DFL);
+    static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
 }
 
 /// Files that cannot be written are noticed before the work, not after it, and what a killed run has left
@@ -74,22 +79,30 @@ void introduce(const Turbine& turbine, bool summary) {
 ///         the number of the signal: 130, 143 or 129
 template <class Body>
 int with_errors(const char* name, const Body& body) {
+    int code = 1;
     try {
-        const int code = body();
-        return code == 130 && interrupted() ? 128 + interrupt : code;
+        code = body();
+        if (code != 130) return code;
     } catch (const Error& error) {
         std::cerr << name << ": " << in_options(error.what()) << "\n";
     } catch (const std::exception& error) {
         std::cerr << name << ": unexpected: " << error.what() << "\n";
     }
-    return 1;
+    return interrupted() ? 128 + interrupt : code;
 }
 
-/// From here on signals are caught; what there is no memory for is an error with advice.
+/// From here on signals are caught, and long work is told of; what there is no memory for is an error with advice.
+/// @param name  of the program
 template <class Body>
-int working(const Body& body) {
-    handle_signals([](int signal) { interrupt = signal; });
+int working(const char* name, const Body& body) {
+    handle_signals(ask_to_stop);
+    const LongWork told(name);
     return with_memory("this run; fewer elements, times or speeds need less", body);
+}
+
+/// Something is done that is worth keeping: after stop_at_once(), signals ask again.
+inline void keep_from_here() {
+    handle_signals(ask_to_stop);
 }
 
 /// The body of main().
@@ -102,11 +115,12 @@ int run_program(const char* name, int argc, char** argv, int (*parse)(int, char*
     return with_errors(name, [&] {
         Arguments arguments;
         if (const int code = parse(argc, argv, arguments); code >= 0) return code;
-        return working([&] { return run(arguments); });
+        return working(name, [&] { return run(arguments); });
     });
 }
 
-/// Likewise for a command that keeps its command line, to say in its files how they were made.
+/// Likewise for a command that keeps its command line, to say in its files how they were made. Behind its result stands
+/// what is left out of its machine, print_left_out().
 /// @param name     "cardan campbell"
 /// @param options  declares the options, with their targets in the arguments
 template <class Arguments>
@@ -117,7 +131,11 @@ int run_command(const char* name, const char* about, int argc, char** argv, void
         CommandLine command(about);
         options(command, arguments);
         if (const int code = command.parse(argc, argv); code >= 0) return code;
-        return working([&] { return run(arguments, command); });
+        return working(name, [&] {
+            const int code = run(arguments, command);
+            if constexpr (requires { print_left_out(arguments.machine); }) print_left_out(arguments.machine);
+            return code;
+        });
     });
 }
 

@@ -15,6 +15,7 @@ namespace cardan::program {
 inline void print_remark(const turbines::Remark& remark) {
     using Kind = turbines::Remark::Kind;
     const std::string words = in_options(remark.text);
+    clear_progress();
     switch (remark.kind) {
         case Kind::taken:
             std::cout << words << "\n";
@@ -26,7 +27,6 @@ inline void print_remark(const turbines::Remark& remark) {
             std::cerr << "warning: " << words << "\n";
             return;
         case Kind::controller:
-            progress("\r                              \r");
             std::cout << "controller: at " << remark.time << " s: " << words << "\n";
             return;
         case Kind::file:

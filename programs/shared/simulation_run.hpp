@@ -35,6 +35,8 @@ inline void add_run_options(CommandLine& app, RunArguments& a) {
 inline void check_run_options(const RunArguments& a) {
     require_positive("--duration", "value", a.duration);
     require_positive("--step", "value", a.step);
+    require_positive("--tolerance", "relative tolerance", a.tolerance);
+    if (a.order < 0 || a.order > 5) throw InputError("--order", "highest order", a.order, "0 ... 5");
 }
 
 /// What makes a run but its length, for its file: who goes on with it must want the same.

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace cardan::solvers {
@@ -22,13 +23,50 @@ void check_speeds(std::span<const double> rotor_speed) {
                              "finite, >= 0 and increasing");
 }
 
-void check_cases(std::span<const CampbellCase> cases, const std::string& parameter) {
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        const CampbellCase& one = cases[i];
-        if (!std::isfinite(one.parameter) || (i > 0 && !(one.parameter > cases[i - 1].parameter)))
-            throw InputError("Campbell diagram", parameter, one.parameter, "finite and increasing");
-        check_case(one, parameter);
+std::string name_of(const std::string& parameter) {
+    return parameter.empty() ? "rotor speed [rad/s]" : parameter;
+}
+
+// @param last  the one before; null: there is none
+void check_next(const CampbellCase* last, const CampbellCase& one, const std::string& parameter) {
+    if (!std::isfinite(one.parameter) || (last && !(one.parameter > last->parameter)))
+        throw InputError("Campbell diagram", parameter, one.parameter, "finite and increasing");
+    check_case(one, parameter);
+}
+
+// @param options  with the method that was chosen
+// @param why      it was
+Campbell one_by_one(const NextCampbellCase& next, std::size_t count, const std::string& parameter,
+                    const CampbellOptions& options, const std::string& why) {
+    const std::string name = name_of(parameter);
+    if (options.neighbour)
+        throw InputError("Campbell diagram", text("neighbour of a diagram over ", name), "given",
+                         "none: modes are followed from one machine to the next");
+    Sweep sweep(options, why, count, parameter);
+    std::vector<std::unique_ptr<PointMethod>> solvers;
+    std::vector<const PointMethod*> used;
+    std::vector<double> parameters;
+    std::optional<CampbellCase> first, last;
+    while (std::optional<CampbellCase> one = next()) {
+        check_next(last ? &*last : nullptr, *one, name);
+        if (!first) first = one;
+        last = one;
+        solvers.push_back(point_method(*one->system, *one->rotor, options));
+        if (parameters.empty()) sweep.set_machine(*one->system, *one->rotor, *solvers.back());
+        if (solvers.back()->row_names() != solvers.front()->row_names())
+            throw InputError(one->rotor->machine, text("rows at ", name, " ", one->parameter),
+                             solvers.back()->unknowns().size(), "those of the first machine");
+        used.push_back(solvers.back().get());
+        solvers.back()->start_from(one->start, one->state_start);
+        if (!sweep.add(*one->system, *solvers.back(), one->rotor_speed, one->parameter)) break;
+        parameters.push_back(one->parameter);
     }
+    Campbell diagram;
+    diagram.complete = false;
+    if (first) diagram = sweep.finish(*first->rotor, used);
+    diagram.parameter = parameter;
+    if (!parameter.empty()) diagram.parameters = std::move(parameters);
+    return diagram;
 }
 
 }  // namespace
@@ -67,33 +105,23 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
     if (cases.empty()) throw InputError("Campbell diagram", "number of points", 0, "at least one");
     std::vector<CampbellCase> by_speed(cases.begin(), cases.end());
     for (CampbellCase& one : by_speed) one.parameter = one.rotor_speed;
-    const std::string name = parameter.empty() ? "rotor speed [rad/s]" : parameter;
+    const std::string name = name_of(parameter);
     if (parameter.empty()) cases = by_speed;
-    check_cases(cases, name);
-    if (options.neighbour)
-        throw InputError("Campbell diagram", text("neighbour of a diagram over ", name), "given",
-                         "none: modes are followed from one machine to the next");
+    for (std::size_t i = 0; i < cases.size(); ++i) check_next(i > 0 ? &cases[i - 1] : nullptr, cases[i], name);
     const MethodChoice choice = choose_method(cases, name, options);
     CampbellOptions own = options;
     own.method = choice.method;
-    Sweep sweep(own, choice.reason, cases.size(), parameter);
-    std::vector<std::unique_ptr<PointMethod>> solvers;
-    std::vector<const PointMethod*> used;
-    std::vector<double> parameters;
-    for (const CampbellCase& one : cases) {
-        solvers.push_back(point_method(*one.system, *one.rotor, own));
-        if (parameters.empty()) sweep.set_machine(*one.system, *one.rotor, *solvers.back());
-        if (solvers.back()->row_names() != solvers.front()->row_names())
-            throw InputError(one.rotor->machine, text("rows at ", name, " ", one.parameter),
-                             solvers.back()->unknowns().size(), "those of the first machine");
-        used.push_back(solvers.back().get());
-        solvers.back()->start_from(one.start, one.state_start);
-        if (!sweep.add(*one.system, *solvers.back(), one.rotor_speed)) break;
-        parameters.push_back(one.parameter);
-    }
-    Campbell diagram = sweep.finish(*cases[0].rotor, used);
-    if (!parameter.empty()) diagram.parameters = std::move(parameters);
-    return diagram;
+    const auto next = [&, i = std::size_t(0)]() mutable {
+        return i < cases.size() ? std::optional(cases[i++]) : std::nullopt;
+    };
+    return one_by_one(next, cases.size(), parameter, own, choice.reason);
+}
+
+Campbell campbell(const NextCampbellCase& next, std::size_t count, const std::string& parameter,
+                  const CampbellOptions& options) {
+    if (options.method == CampbellMethod::automatic)
+        throw InputError("Campbell diagram", "method", "automatic", "another one where machines are made one by one");
+    return one_by_one(next, count, parameter, options, "");
 }
 
 }  // namespace cardan::solvers

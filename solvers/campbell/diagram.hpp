@@ -78,7 +78,8 @@ struct CampbellOptions {
     const Campbell* neighbour = nullptr;
     /// Called after every rotor speed with the numbers done and to do.
     std::function<void(int done, int total)> progress = {};
-    /// Asked before every rotor speed: true ends the sweep; what was computed is kept and `complete` is false.
+    /// Asked before every rotor speed and in the search of its periodic steady state: true ends the sweep; what was
+    /// computed is kept and `complete` is false.
     std::function<bool()> cancelled = {};
 };
 
@@ -255,6 +256,16 @@ struct CampbellCase {
 /// modes have other names than those of the first, or a neighbour in the options
 Campbell campbell(std::span<const CampbellCase> cases, const std::string& parameter,
                   const CampbellOptions& options = {});
+
+/// Makes the next machine of a diagram, or says that there are no more. What it points to lives until the diagram is
+/// there.
+using NextCampbellCase = std::function<std::optional<CampbellCase>()>;
+/// Likewise, of machines that are made one by one, each after the modes of the one before: what is cancelled has all
+/// that belongs to its points. Without any machine the diagram is empty and not complete.
+/// @param count  of machines, for CampbellOptions::progress
+/// @throws InputError also for CampbellMethod::automatic, which asks for all machines at once
+Campbell campbell(const NextCampbellCase& next, std::size_t count, const std::string& parameter,
+                  const CampbellOptions& options);
 
 /// "Coleman (fixed frame)", "Floquet (principal frequencies, fixed frame); chosen: the blades differ"
 std::string method_in_words(const Campbell& diagram);

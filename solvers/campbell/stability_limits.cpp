@@ -197,7 +197,7 @@ void LimitSearch::accept(Probe probe, const PeriodicMac& likeness) {
     else
         starts_.push_back({point.at.q, point.at.s});
     notes_.see(probe.parameter, point);
-    sweep_.add(*probe.solver, std::move(probe.point), likeness);
+    sweep_.add(*probe.solver, std::move(probe.point), likeness, probe.parameter);
     parameters_.push_back(probe.parameter);
     solvers_.push_back(std::move(probe.solver));
     roots_.push_back(std::move(probe.roots));

@@ -99,6 +99,7 @@ void Balance::set_units() {
 }
 
 void Balance::set_at(int sample, const Matrix& x) {
+    if (options_.cancelled && options_.cancelled()) throw Cancelled();
     equations_.set_azimuth(entry(at_->azimuths, sample));
     equations_.set(x * at_->basis[0].col(sample), x * at_->basis[1].col(sample), x * at_->basis[2].col(sample));
 }
@@ -273,7 +274,14 @@ void Balance::finish(PeriodicSteadyState& result, bool small) {
 }
 
 PeriodicSteadyState harmonic_balance(const System& system, int spin, const PeriodicOptions& options) {
-    return Balance(system, spin, options).solve();
+    try {
+        return Balance(system, spin, options).solve();
+    } catch (const Balance::Cancelled&) {
+        PeriodicSteadyState none;
+        none.converged = false;
+        none.message = text("periodic steady state at ", options.rotor_speed, " rad/s: it was cancelled");
+        return none;
+    }
 }
 
 }  // namespace cardan::solvers

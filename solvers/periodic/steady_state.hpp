@@ -5,6 +5,7 @@
 #include "mbs/model/rotor_map.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,9 @@ struct PeriodicOptions {
     const RotorMap* rotor = nullptr;
     /// Shooting: steps per revolution (0: 8 harmonics, at least 64) and stages of Radau's method (order 2 s - 1).
     int steps = 0, stages = 5;
+    /// Harmonic balance: asked at every azimuth at which the equations are evaluated; true: the result does not
+    /// converge, and says so.
+    std::function<bool()> cancelled = {};
 };
 
 /// A mean value that is held, and the load this requires.

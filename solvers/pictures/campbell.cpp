@@ -6,6 +6,7 @@
 #include "solvers/pictures/detail/campbell_style.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -30,16 +31,16 @@ public:
         for (const Branch& branch : diagram.branches)
             if (shows(diagram, branch)) branches_.push_back(&branch);
         rpm_ = abscissae(diagram);
-        for (const Branch* branch : branches_)
-            for (std::size_t i = 0; i < rpm_.size(); ++i) {
-                const double f = diagram.damped_hz(*branch, i), zeta = damping(diagram, *branch, i);
-                if (std::isfinite(f)) f_max_ = std::max(f_max_, f);
-                if (std::isfinite(zeta)) {
-                    zeta_least_ = std::min(zeta_least_, 100 * zeta);
-                    zeta_min_ = std::min(zeta_min_, 100 * zeta);
-                    zeta_max_ = std::max(zeta_max_, 100 * zeta);
-                }
-            }
+        low_ = rpm_.front();
+        high_ = rpm_.back();
+        for (const Branch* branch : branches_) take_range(diagram, *branch);
+        for (const OtherDiagram& other : options.others) {
+            const std::vector<double> x = abscissae(*other.diagram);
+            low_ = std::min(low_, x.front());
+            high_ = std::max(high_, x.back());
+            for (const Branch& branch : other.diagram->branches)
+                if (shows(*other.diagram, branch)) take_range(*other.diagram, branch);
+        }
         f_max_ = options.max_frequency_hz > 0 ? options.max_frequency_hz : 1.05 * f_max_;
         if (f_max_ == 0) f_max_ = 1;  // rigid motions only
         for (std::size_t i = 0; i < rpm_.size(); ++i) turns_.push_back({rpm_[i], d_.points[i].rotor_speed / (2 * pi)});
@@ -57,6 +58,11 @@ public:
             for (std::size_t b = 0; b < blade->branches.size(); ++b) {
                 script += branch_data(*blade, blade->branches[b], blade_name(b), abscissae(*blade));
             }
+        for (std::size_t k = 0; k < options_.others.size(); ++k) {
+            const Campbell& other = *options_.others[k].diagram;
+            for (std::size_t b = 0; b < other.branches.size(); ++b)
+                script += branch_data(other, other.branches[b], other_name(k, b), abscissae(other));
+        }
         return script;
     }
 
@@ -81,6 +87,12 @@ public:
                 plots += text(", $", blade_name(b), " using 1:2 with lines lc rgb '#000000' dt 1 lw 1 title ",
                               gnuplot_text(text("isolated blade: ", branch.name)));
             }
+        plots += other_curves(2);
+        if (!options_.others.empty())
+            plots += ", keyentry with lines lc rgb '#000000' lw 1.8 title " + gnuplot_text("lines: " + options_.name);
+        for (std::size_t k = 0; k < options_.others.size(); ++k)
+            plots += text(", keyentry with points lc rgb '#000000' pt ", symbol(k), " ps 0.9 title ",
+                          gnuplot_text(options_.others[k].name));
         return s + "plot " + plots + "\nunset label\n";
     }
 
@@ -94,6 +106,7 @@ public:
                              x_label_command(true), "unset key\n");
         std::string plots;
         for (std::size_t b = 0; b < branches_.size(); ++b) plots += curve(b, 3, 5, false);
+        plots += other_curves(3);
         return s + "plot " + (decades ? plots.substr(2) : "0 with lines lc rgb '#999999' lw 1 notitle" + plots) + "\n";
     }
 
@@ -101,6 +114,35 @@ private:
     std::string name(std::size_t b) const { return text("b", prefix_, "_", b); }
     std::string turns_name() const { return "turns_" + prefix_; }
     std::string blade_name(std::size_t b) const { return text("i", prefix_, "_", b); }
+    std::string other_name(std::size_t k, std::size_t b) const { return text("o", prefix_, "_", k, "_", b); }
+    static int symbol(std::size_t k) {
+        constexpr std::array symbols{1, 2, 3, 8};  // +, x, *, triangle: doubtful points are circles
+        return symbols[k];
+    }
+    // In the colour that their family has in the diagram.
+    std::string other_curves(int column) const {
+        std::string plots;
+        for (std::size_t k = 0; k < options_.others.size(); ++k) {
+            const Campbell& other = *options_.others[k].diagram;
+            for (std::size_t b = 0; b < other.branches.size(); ++b) {
+                const Branch& branch = other.branches[b];
+                if (!shows(other, branch)) continue;
+                plots += text(", $", other_name(k, b), " using 1:", column, " with points pt ", symbol(k),
+                              " ps 0.9 lw 1.4 lc rgb '", colour(colour_index(d_, branch)).hex, "' notitle");
+            }
+        }
+        return plots;
+    }
+    void take_range(const Campbell& d, const Branch& branch) {
+        for (std::size_t i = 0; i < d.points.size(); ++i) {
+            const double f = d.damped_hz(branch, i), zeta = damping(d, branch, i);
+            if (std::isfinite(f)) f_max_ = std::max(f_max_, f);
+            if (!std::isfinite(zeta)) continue;
+            zeta_least_ = std::min(zeta_least_, 100 * zeta);
+            zeta_min_ = std::min(zeta_min_, 100 * zeta);
+            zeta_max_ = std::max(zeta_max_, 100 * zeta);
+        }
+    }
     bool shows(const Campbell& d, const Branch& branch) const {
         if (branch.of_states && !options_.states) return false;
         const auto& families = options_.families;
@@ -156,9 +198,9 @@ private:
     }
 
     // End of the axis.
-    double last() const { return rpm_.back() > rpm_.front() ? rpm_.back() : rpm_.front() + 1; }
+    double last() const { return high_ > low_ ? high_ : low_ + 1; }
     std::string x_range() const {
-        const double low = rpm_.front(), high = last();
+        const double low = low_, high = last();
         // Over decades in decades.
         const bool decades = !d_.parameters.empty() && low > 0 && high > 50 * low;
         return text(decades ? "set logscale x\n" : "", "set xrange [", low, ":", high, "]\n");
@@ -201,6 +243,7 @@ private:
     std::vector<const Branch*> branches_;
     std::vector<double> rpm_;
     std::vector<Turning> turns_;
+    double low_ = 0, high_ = 0;  // of the axis
     double f_max_ = 0, zeta_min_ = 0, zeta_max_ = 0;
     double zeta_least_ = std::numeric_limits<double>::infinity();
 };
@@ -209,6 +252,15 @@ private:
 
 void plot(const Campbell& diagram, const std::filesystem::path& path, const CampbellPlotOptions& options) {
     require_points(diagram);
+    constexpr std::size_t most = 4;
+    if (options.others.size() > most)
+        throw InputError("Campbell diagrams over each other", "others", options.others.size(), "at most 4");
+    for (const OtherDiagram& other : options.others) {
+        require_points(*other.diagram);
+        if (other.diagram->parameter != diagram.parameter)
+            throw InputError("Campbell diagrams over each other", "axis of " + other.name,
+                             abscissa_label(*other.diagram), text(abscissa_label(diagram), ", as of the first"));
+    }
     const Panels panels(diagram, options, "0");
     std::string script = panels.data() + "set multiplot\nset lmargin at screen 0.07\nset rmargin at screen 0.665\n";
     if (options.damping_panel) {

@@ -10,6 +10,12 @@
 
 namespace cardan::solvers {
 
+/// A diagram that is drawn over another one.
+struct OtherDiagram {
+    std::string name;
+    const Campbell* diagram = nullptr;
+};
+
 struct CampbellPlotOptions {
     std::vector<std::string> families = {};  ///< only these families; empty: all
     int ordinal = 0;                         ///< only the first, second, ... of each family; 0: all
@@ -22,11 +28,16 @@ struct CampbellPlotOptions {
     /// Damping over decades, where no mode grows and the most damped one has 30 times the damping of the least: what
     /// the air does to blades that flap and that move in the plane of the rotor.
     bool log_damping = false;
+    /// Drawn over the diagram, as points in the colours of the families, over the same speeds or parameter; at most
+    /// four. Their names and `name`, that of the diagram itself, are in the legend.
+    std::vector<OtherDiagram> others = {};
+    std::string name = {};
 };
 
 /// Frequency panel over damping panel; nP lines dashed; colour by family, line style by rotor pattern, doubtful points
 /// hollow. The file extension selects the format: .svg, .png or .pdf.
-/// @throws FileError, Error (gnuplot's message)
+/// @throws InputError for diagrams over each other that are not over the same speeds or parameter, or too many;
+/// FileError, Error (gnuplot's message)
 void plot(const Campbell& diagram, const std::filesystem::path& path, const CampbellPlotOptions& options = {});
 
 /// Several selections of one diagram as panels of one picture, two per row, without damping.

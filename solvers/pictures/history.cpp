@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace cardan::solvers {
 
@@ -32,6 +34,7 @@ double largest(std::span<const double> values) {
 // The curves of a panel in the units of the channels, and what they become when they are shown.
 struct PanelCurves {
     std::vector<const Channel*> channels;
+    std::vector<std::string> labels;
     std::vector<ThinnedCurve> curves;
 
     // Units after the conversion of angles; all channels must agree.
@@ -59,7 +62,7 @@ struct PanelCurves {
         for (std::size_t c = 0; c < curves.size(); ++c) {
             const double factor = std::pow(shown[c].factor * scaled.factor, exponent);
             for (double& y : curves[c].y) y *= factor;
-            panel.curves.push_back({legend(*channels[c]), std::move(curves[c].x), std::move(curves[c].y)});
+            panel.curves.push_back({labels[c], std::move(curves[c].x), std::move(curves[c].y)});
         }
         return panel;
     }
@@ -73,6 +76,50 @@ void check_lengths(const History& history) {
         if (history.values[i].size() != history.time.size())
             throw InputError(place, text("values of the channel '", history.channels[i].name, "'"),
                              history.values[i].size(), text(history.time.size(), ", the number of times"));
+}
+
+bool has(const History& history, const std::string& channel) {
+    return std::ranges::any_of(history.channels,
+                               [&](const Channel& one) { return one.name == channel || one.alias == channel; });
+}
+
+// What a panel shows, in the order of its channels.
+struct Shown {
+    const History* history;
+    std::size_t channel;
+    std::string label;
+};
+
+// Of each channel those histories that have it.
+std::vector<Shown> shown_in(const HistoryPanel& panel, std::span<const NamedHistory> histories) {
+    std::vector<Shown> all;
+    for (const std::string& channel : panel.channels) {
+        const std::size_t before = all.size();
+        for (const auto& [name, history] : histories) {
+            if (histories.size() > 1 && !has(*history, channel)) continue;
+            const std::size_t index = history->index(channel);  // or the error names those that there are
+            const Channel& found = history->channels[index];
+            all.push_back({history, index, histories.size() > 1 ? text(name, ": ", found.name) : legend(found)});
+        }
+        if (all.size() == before)
+            throw InputError("picture of several histories", "channel", channel, "one that any of them has");
+    }
+    return all;
+}
+
+// The titles that differ.
+std::string joint_title(std::span<const NamedHistory> histories) {
+    std::vector<std::string> titles;
+    for (const auto& [name, history] : histories)
+        if (std::ranges::find(titles, history->title) == titles.end()) titles.push_back(history->title);
+    std::string all;
+    for (const std::string& title : titles) all += (all.empty() ? "" : " | ") + title;
+    return all;
+}
+
+void check_some(std::span<const NamedHistory> histories) {
+    if (histories.empty()) throw InputError("picture of histories", "number of histories", 0, "at least one");
+    for (const auto& [name, history] : histories) check_lengths(*history);
 }
 
 std::size_t columns(int width) {
@@ -106,29 +153,42 @@ std::vector<HistoryPanel> panels_by_units(const History& history, const std::vec
     return panels;
 }
 
-void plot(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,
-          const HistoryPlotOptions& options) {
-    check_lengths(history);
-    const SampleRange range = samples_between(history.time, options.from, options.to);
-    const auto time = std::span(history.time).subspan(range.first, range.count);
+void plot(std::span<const NamedHistory> histories, const std::vector<HistoryPanel>& panels,
+          const std::filesystem::path& path, const HistoryPlotOptions& options) {
+    check_some(histories);
     PanelStack stack;
-    stack.title = options.title.empty() ? history.title : options.title;
+    stack.title = options.title.empty() ? joint_title(histories) : options.title;
     stack.x_label = "time, s";
-    stack.x_low = time.front();
-    stack.x_high = time.back();
+    stack.x_low = std::numeric_limits<double>::infinity();
+    stack.x_high = -stack.x_low;
     stack.width = options.width;
+    for (const auto& [name, history] : histories) {
+        const SampleRange range = samples_between(history->time, options.from, options.to);
+        stack.x_low = std::min(stack.x_low, history->time[range.first]);
+        stack.x_high = std::max(stack.x_high, history->time[range.first + range.count - 1]);
+    }
     for (const HistoryMark& mark : options.marks) stack.marks.push_back({mark.time, mark.label});
     for (const HistoryPanel& panel : panels) {
         PanelCurves curves;
-        for (const std::string& channel : panel.channels) {
-            const std::size_t i = history.index(channel);
-            const auto values = std::span(history.values[i]).subspan(range.first, range.count);
-            curves.channels.push_back(&history.channels[i]);
-            curves.curves.push_back(min_max_envelope(time, values, columns(options.width)));
+        for (Shown& one : shown_in(panel, histories)) {
+            const SampleRange range = samples_between(one.history->time, options.from, options.to);
+            const auto part = [&](const std::vector<double>& all) {
+                return std::span(all).subspan(range.first, range.count);
+            };
+            curves.channels.push_back(&one.history->channels[one.channel]);
+            curves.labels.push_back(std::move(one.label));
+            curves.curves.push_back(min_max_envelope(part(one.history->time), part(one.history->values[one.channel]),
+                                                     columns(options.width)));
         }
         stack.panels.push_back(panel.channels.empty() ? StackPanel{} : curves.panel(options.angles, "", false));
     }
     draw(stack, path);
+}
+
+void plot(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,
+          const HistoryPlotOptions& options) {
+    const NamedHistory alone{history.title, &history};
+    plot(std::span(&alone, 1), panels, path, options);
 }
 
 void plot_energies(const History& history, const std::filesystem::path& path, const HistoryPlotOptions& options) {
@@ -150,31 +210,33 @@ void plot_energies(const History& history, const std::filesystem::path& path, co
     plot(energies, panels, path, options);
 }
 
-void plot_spectra(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,
-                  const SpectrumPlotOptions& options) {
-    check_lengths(history);
+void plot_spectra(std::span<const NamedHistory> histories, const std::vector<HistoryPanel>& panels,
+                  const std::filesystem::path& path, const SpectrumPlotOptions& options) {
+    check_some(histories);
     constexpr const char* place = "picture of spectra";
     require_not_negative(place, "largest frequency [Hz]", options.max_frequency_hz);
     require_not_negative(place, "rotor frequency [Hz]", options.rotor_frequency_hz);
     if (options.blades < 0) throw InputError(place, "number of blades", options.blades, ">= 0");
     PanelStack stack;
-    stack.title = options.title.empty() ? history.title : options.title;
+    stack.title = options.title.empty() ? joint_title(histories) : options.title;
     stack.x_label = "frequency, Hz";
     stack.x_high = options.max_frequency_hz;
     stack.width = options.width;
     for (const HistoryPanel& panel : panels) {
         PanelCurves curves;
-        for (const std::string& channel : panel.channels) {
-            const Spectrum s = spectrum(history, channel, options.spectrum);
+        for (Shown& one : shown_in(panel, histories)) {
+            const Channel& channel = one.history->channels[one.channel];
+            const Spectrum s = spectrum(*one.history, channel.name, options.spectrum);
             const auto shown = static_cast<std::size_t>(
                 options.max_frequency_hz > 0
                     ? std::upper_bound(s.frequency.begin(), s.frequency.end(), options.max_frequency_hz) -
                           s.frequency.begin()
                     : std::ssize(s.frequency));
             const auto y = std::span(options.density ? s.density : s.amplitude).first(shown);
-            curves.channels.push_back(&history.channels[history.index(channel)]);
+            curves.channels.push_back(&channel);
+            curves.labels.push_back(std::move(one.label));
             curves.curves.push_back(min_max_envelope(std::span(s.frequency).first(shown), y, columns(options.width)));
-            if (options.max_frequency_hz == 0) stack.x_high = s.frequency.back();
+            if (options.max_frequency_hz == 0) stack.x_high = std::max(stack.x_high, s.frequency.back());
         }
         const char* quantity = options.density ? "density, " : "amplitude, ";
         stack.panels.push_back(panel.channels.empty()
@@ -186,6 +248,12 @@ void plot_spectra(const History& history, const std::vector<HistoryPanel>& panel
         for (int n : rotor_multiples(options.blades))
             stack.marks.push_back({n * options.rotor_frequency_hz, text(n, "P")});
     draw(stack, path);
+}
+
+void plot_spectra(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,
+                  const SpectrumPlotOptions& options) {
+    const NamedHistory alone{history.title, &history};
+    plot_spectra(std::span(&alone, 1), panels, path, options);
 }
 
 }  // namespace cardan::solvers

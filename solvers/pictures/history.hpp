@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,12 +45,24 @@ struct HistoryPlotOptions {
     int width = 1200;  ///< pixels; each column of pixels keeps its smallest and largest value
 };
 
+/// One of several histories in a picture.
+struct NamedHistory {
+    std::string name;  ///< in the legend, before the channel
+    const History* history = nullptr;
+};
+
 /// Panels above each other over one time axis, with the channels' long names above them. The file extension selects the
 /// format: .svg, .png or .pdf.
 /// @throws InputError for an unknown channel, different units in one panel, fewer than two samples from `from` to `to`,
 /// different numbers of values and times, descending times; FileError, Error (gnuplot's message)
 void plot(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,
           const HistoryPlotOptions& options = {});
+
+/// Likewise of several histories over each other, from the first time of any to the last. A channel that some of them
+/// have is drawn of those; with different units there it is refused as within a panel.
+/// @throws InputError also for a channel that none has
+void plot(std::span<const NamedHistory> histories, const std::vector<HistoryPanel>& panels,
+          const std::filesystem::path& path, const HistoryPlotOptions& options = {});
 
 /// Energy balance from the recorder's channels: kinetic energy, change of potential energy since the start, dissipated
 /// energy and the energy supplied by drives and loads in one panel, the integration error in a second one. Kinetic +
@@ -72,5 +85,8 @@ struct SpectrumPlotOptions {
 /// @throws InputError as plot() and as spectrum(), and for frequencies or blades that are negative
 void plot_spectra(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,
                   const SpectrumPlotOptions& options = {});
+/// Likewise of several histories.
+void plot_spectra(std::span<const NamedHistory> histories, const std::vector<HistoryPanel>& panels,
+                  const std::filesystem::path& path, const SpectrumPlotOptions& options = {});
 
 }  // namespace cardan::solvers

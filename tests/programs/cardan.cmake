@@ -43,7 +43,7 @@ foreach(case IN ITEMS campbell simulate linearise)
     elseif(case STREQUAL "simulate")
         list(APPEND arguments --duration 1 --generator-torque 500 --blades rigid)
     else()
-        list(APPEND arguments --rpm 27 --azimuths 9)
+        list(APPEND arguments --rpm 27 --azimuths 9 --lin)
     endif()
     add_example_test(example_first_${case} cardan 0 "files" ${case} ${arguments})
     add_example_test(example_again_${case} cardan 0 "cardan ${case} example_first_${case}.h5 --.*files" repeat example_first_${case}.h5 --out

@@ -28,5 +28,9 @@ expect simulate help si
 expect --blade-elements campbell nrel5mw --bl
 expect nrel5mw-spar modes nrel
 expect locked campbell wt600 --generator lo
+expect quasi-steady campbell nrel5mw --wake qu
+expect dynamic campbell nrel5mw --wake = dy
+expect none steady nrel5mw --wake =
+expect --blade-damping modes nrel5mw --blade-d
 [ "$(offered campbell wt600 --generator lo | grep -c .)" = 1 ] || { echo "FAILED: more than one value"; exit 1; }
 echo "completion: all is well"

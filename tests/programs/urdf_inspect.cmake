@@ -9,7 +9,7 @@ add_example_test(example_inspect_pose urdf_inspect 0 "100 % elbow" ${arm6} --q e
 add_example_test(example_inspect_free urdf_inspect 0 "none oscillates" ${arm6} --stiffness 0)
 add_example_test(example_inspect_help urdf_inspect 0 "--stiffness" --help)
 add_example_test(example_inspect_unknown_option urdf_inspect 2 "--nonsense" ${arm6} --nonsense)
-add_example_test(example_inspect_modes urdf_inspect 2 "--modes" --modes 0)
+add_example_test(example_inspect_modes urdf_inspect 1 "--modes: value = 0; allowed: finite and > 0" --modes 0)
 add_example_test(example_inspect_no_file_given urdf_inspect 2 "FILE is required")
 add_example_test(example_inspect_no_file urdf_inspect 1 "no/such.urdf: cannot be read: No such file" no/such.urdf)
 add_example_test(example_inspect_not_urdf urdf_inspect 1 "[.]cmake:.*is not XML" ${CMAKE_CURRENT_LIST_FILE})

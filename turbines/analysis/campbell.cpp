@@ -5,6 +5,7 @@
 #include "turbines/analysis/detail/rounded.hpp"
 #include "turbines/analysis/in_unit.hpp"
 #include "turbines/analysis/prepared_machine.hpp"
+#include "turbines/analysis/rising.hpp"
 #include "turbines/analysis/wind_run.hpp"
 #include "turbines/machine/machine_text.hpp"
 
@@ -112,6 +113,7 @@ solvers::Campbell over_speeds(const Machine& machine, const CampbellSettings& s,
 
 CampbellDiagram over_rotor_speed(const Machine& machine, CampbellSettings s) {
     if (s.rotor_speeds.empty()) s.rotor_speeds = usual_speeds(machine, s.report);
+    if (s.progress) s.progress("rotor speed", 0, static_cast<int>(s.rotor_speeds.size()));
     const std::vector<double> pitch = pitch_angles(s, machine);
     // Where the pitch changes, the mesh is that of the last speed.
     MachineSettings at_last = s.machine;
@@ -131,36 +133,32 @@ CampbellDiagram over_rotor_speed(const Machine& machine, CampbellSettings s) {
 CampbellDiagram over_wind(const Machine& machine, CampbellSettings s) {
     if (!s.max_frequency_hz)
         s.max_frequency_hz = usual_frequency(machine.description, assembly_options(machine, s.machine, s.gravity));
-    WindRunOptions options{.winds = s.winds,
-                           .operation = s.operation,
-                           .air = s.air,
-                           .machine = s.machine,
-                           .gravity = s.gravity,
-                           .harmonics = s.harmonics,
-                           .max_frequency_hz = *s.max_frequency_hz,
-                           .report = s.report,
-                           .cancelled = s.cancelled};
-    if (s.progress)
-        options.progress = [progress = s.progress](int done, int total) { progress("wind speed", done, total); };
-    WindRun run = wind_run(machine, options);
+    constexpr const char* what = "wind speed";
+    if (s.progress) s.progress(what, 0, static_cast<int>(s.winds.size()));
+    WindRun run = wind_run(machine, {.winds = s.winds,
+                                     .operation = s.operation,
+                                     .air = s.air,
+                                     .machine = s.machine,
+                                     .gravity = s.gravity,
+                                     .harmonics = s.harmonics,
+                                     .max_frequency_hz = *s.max_frequency_hz,
+                                     .report = s.report,
+                                     .cancelled = s.cancelled});
     s.machine = run.options.machine;
-    find_points(run);
-    CampbellDiagram diagram;
-    diagram.complete = false;
+    const AeroelasticOptions air = aeroelastic_options(s.vibration, run.air);
+    const std::string words = in_words(air, run.air);
+    report_remark(s.report, {Remark::Kind::taken, text("air of the vibrations: ", words)});
+    solvers::CampbellOptions modes = modes_of(s, run.machine, what);
+    modes.floquet.harmonics = s.harmonics;
+    modes.all_state_motions = s.all_air_motions;
+    if (s.floquet) modes.method = solvers::CampbellMethod::floquet;
+    // One after the other, so that what is cancelled has the modes of its points.
+    CampbellDiagram diagram{aeroelastic_campbell(
+        run.operation, [&] { return next_point(run); }, s.winds.size(), air, modes)};
+    diagram.remark = words;
+    diagram.complete = diagram.complete && run.complete;
     diagram.mesh = run.ready.mesh;
     diagram.turbine = run.ready.turbine;
-    if (!run.points.empty()) {
-        const AeroelasticOptions air = aeroelastic_options(s.vibration, run.air);
-        const std::string words = in_words(air, run.air);
-        report_remark(s.report, {Remark::Kind::taken, text("air of the vibrations: ", words)});
-        solvers::CampbellOptions modes = modes_of(s, run.machine, "modes at wind speed");
-        modes.floquet.harmonics = s.harmonics;
-        modes.all_state_motions = s.all_air_motions;
-        if (s.floquet) modes.method = solvers::CampbellMethod::floquet;
-        static_cast<solvers::Campbell&>(diagram) = aeroelastic_campbell(run.operation, run.points, air, modes);
-        diagram.remark = words;
-    }
-    diagram.complete = diagram.complete && run.complete;
     diagram.not_converged = run.not_converged;
     diagram.settings = std::move(s);
     return diagram;
@@ -173,6 +171,9 @@ CampbellDiagram campbell(const Machine& source, const CampbellSettings& settings
     CampbellSettings s = settings;
     std::vector<Remark> remarks;
     s.report = kept(remarks, settings.report);
+    s.rotor_speeds = rising(std::move(s.rotor_speeds), "CampbellSettings::rotor_speeds", "rotor speeds", units::rpm,
+                            "rpm", s.report);
+    s.winds = rising(std::move(s.winds), "CampbellSettings::winds", "wind speeds", 1, "m/s", s.report);
     const Machine machine = with_settings(source, s.machine, s.report);
     s.machine.foundation.reset();  // it is the machine's now
     CampbellDiagram diagram =

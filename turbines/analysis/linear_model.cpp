@@ -20,6 +20,7 @@ constexpr int harmonics_without_wind = 8, harmonics_in_wind = 4;
 
 void check(const LinearModelSettings& s) {
     require_not_negative("LinearModelSettings::rotor_speed", "value [rad/s]", s.rotor_speed.value_or(0));
+    require_not_negative("LinearModelSettings::wind", "value [m/s]", s.wind.value_or(0));
     if (s.max_frequency_hz)
         require_positive("LinearModelSettings::max_frequency_hz", "value [Hz]", *s.max_frequency_hz);
     require_positive("LinearModelSettings::error", "value", s.error);

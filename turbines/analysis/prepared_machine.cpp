@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace cardan::turbines {
 
@@ -43,6 +44,39 @@ void set_foundation(const MachineSettings& settings, Machine& machine) {
     machine.description.platform = settings.foundation;
 }
 
+void set_pitch_bearing(const MachineSettings& settings, Bearing& pitch) {
+    if (settings.pitch_stiffness) {
+        require_positive("MachineSettings::pitch_stiffness", "value [N m/rad]", *settings.pitch_stiffness);
+        pitch.hold = Bearing::Hold::spring;
+        pitch.stiffness = *settings.pitch_stiffness;
+    }
+    if (!settings.pitch_damping) return;
+    require_not_negative("MachineSettings::pitch_damping", "value [N m s/rad]", *settings.pitch_damping);
+    if (pitch.hold != Bearing::Hold::spring && pitch.hold != Bearing::Hold::free)
+        throw InputError(
+            "MachineSettings::pitch_damping", "value [N m s/rad]", *settings.pitch_damping,
+            "none beside pitch bearings without a spring: MachineSettings::pitch_stiffness gives them one");
+    pitch.damping = *settings.pitch_damping;
+}
+
+// Damping of beams, springs of the pitch bearings.
+void set_beams(const MachineSettings& settings, TurbineDescription& d) {
+    std::vector<BladeDescription*> blades{&d.blade};
+    for (auto& [number, blade] : d.own_blades)
+        if (blade) blades.push_back(&*blade);
+    for (BladeDescription* blade : blades) {
+        set_pitch_bearing(settings, blade->pitch);
+        if (!settings.blade_damping) continue;
+        require_not_negative("MachineSettings::blade_damping", "value", *settings.blade_damping);
+        blade->damping = {};
+        blade->first_flap_damping = *settings.blade_damping;
+    }
+    if (!settings.tower_damping) return;
+    require_not_negative("MachineSettings::tower_damping", "value", *settings.tower_damping);
+    d.tower.damping = {};
+    d.tower.first_mode_damping = *settings.tower_damping;
+}
+
 // A diagram of a machine that a file holds altogether would be empty: its beams bend.
 void free_beams_if_nothing_moves(Machine& machine, const Report& report) {
     const TurbineDescription& d = machine.description;
@@ -61,6 +95,7 @@ void free_beams_if_nothing_moves(Machine& machine, const Report& report) {
 Machine with_settings(Machine machine, const MachineSettings& settings, const Report& report) {
     set_dofs(settings, machine);
     set_foundation(settings, machine);
+    set_beams(settings, machine.description);
     free_beams_if_nothing_moves(machine, report);
     if (settings.generator_inertia) machine.description.drive_train.generator_inertia = *settings.generator_inertia;
     return machine;

@@ -51,6 +51,11 @@ struct MachineSettings {
     std::optional<BladeDof> blades = {};
     std::optional<PlatformDescription> foundation = {};  ///< read_foundation(); none: the machine's, or it is clamped
     std::optional<double> generator_inertia = {};        ///< on its own shaft, kg m^2
+    /// Damping ratio of the first flap mode of every blade, clamped and at rest, and of the first bending mode of the
+    /// tower, stiffness-proportional, in the place of all structural damping that they have.
+    std::optional<double> blade_damping = {}, tower_damping = {};
+    /// Of the springs in the pitch bearings, N m/rad, and of dampers beside them, N m s/rad.
+    std::optional<double> pitch_stiffness = {}, pitch_damping = {};
     /// Beam elements; none: as many as it takes, converged_mesh().
     std::optional<int> blade_elements = {}, tower_elements = {};
     bool damping = true;  ///< of beams and joints
@@ -191,9 +196,11 @@ struct VibrationSettings {
 
 /// Of campbell(): over rotor speeds, or with `winds` in the air, over those.
 struct CampbellSettings {
-    /// rad/s, rising from >= 0; empty: from 0 to 1.2 times the machine's in 12 steps. None beside `winds`.
+    /// rad/s, >= 0, taken in rising order and each once; empty: from 0 to 1.2 times the machine's in 12 steps. None
+    /// beside `winds`.
     std::vector<double> rotor_speeds = {};
-    std::vector<double> winds = {};  ///< at the hub's height, m/s, rising; the machine runs as `operation` says
+    /// At the hub's height, m/s, likewise; the machine runs as `operation` says.
+    std::vector<double> winds = {};
     /// Pitch over the rotor speed; empty: MachineSettings::pitch, else that of the machine's controller. None beside
     /// `winds`.
     std::vector<PitchAt> pitch_schedule = {};
@@ -211,9 +218,10 @@ struct CampbellSettings {
     int harmonics = 4;             ///< of the revolution, at first
     ///@}
     Report report = {};  ///< receives the remarks as they arise
-    /// Called after every rotor speed or wind: first of the operating points, then of the modes.
+    /// Called before the first and after every rotor speed or wind.
     std::function<void(const char* what, int done, int total)> progress = {};
-    std::function<bool()> cancelled = {};  ///< asked before every one; true: the rest is left out
+    /// Asked often; true: the diagram ends with the last point that has its modes.
+    std::function<bool()> cancelled = {};
 };
 
 /// Of linear_model(): at a rotor speed, or with a wind at the operating point in it.

@@ -4,6 +4,7 @@
 #include "mbs/base/units.hpp"
 #include "turbines/analysis/detail/rounded.hpp"
 #include "turbines/analysis/machine_wind.hpp"
+#include "turbines/analysis/rising.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -30,34 +31,39 @@ bool sets_law(const OperationSettings& own) {
 }
 
 // What the settings say, else the controller of the machine.
-VariableSpeed law_of(const WindRun& run) {
-    const OperationSettings& own = run.options.operation;
-    const TurbineDescription& d = run.machine.description;
-    VariableSpeed law = variable_speed(run.machine.operation);
+VariableSpeed law_of(const Machine& machine, const WindRunOptions& options, const Aerodynamics& air, bool own_pitch) {
+    const OperationSettings& own = options.operation;
+    const TurbineDescription& d = machine.description;
+    VariableSpeed law = variable_speed(machine.operation);
     if (own.rated_rotor_speed) law.rated_speed = *own.rated_rotor_speed;
     if (own.min_rotor_speed) law.least_speed = *own.min_rotor_speed;
     if (own.rated_power) law.rated_power = *own.rated_power;
-    law.fine_pitch = run.options.machine.pitch.value_or(0);
-    if (!run.own_pitch) law.least_pitch.clear();
-    if (own.tip_speed_ratio)
-        law.tip_speed_ratio = *own.tip_speed_ratio;
-    else if (law.tip_speed_ratio == 0)
-        law.tip_speed_ratio =
-            best_tip_speed_ratio(run.air.blade, d.blades, d.blade.cone, law.fine_pitch, run.air.options);
+    law.fine_pitch = options.machine.pitch.value_or(0);
+    if (!own_pitch) law.least_pitch.clear();
     if (law.rated_power == 0)
         throw InputError("OperationSettings::rated_power", "value", "none",
                          "power of the air on the rotor at rated wind; or a schedule of the machine");
-    take(run.options.report, in_words(law, run.machine.operation.source));
+    if (own.tip_speed_ratio)
+        law.tip_speed_ratio = *own.tip_speed_ratio;
+    else if (law.tip_speed_ratio == 0)
+        law.tip_speed_ratio = best_tip_speed_ratio(air.blade, d.blades, d.blade.cone, law.fine_pitch, air.options);
+    if (!(law.rated_speed > 0))
+        throw InputError("OperationSettings::rated_rotor_speed", "value", "none", "a rotor speed; the model has none");
+    if (law.least_speed > law.rated_speed)
+        throw InputError("OperationSettings::min_rotor_speed", "value [rpm]", law.least_speed * units::to_rpm,
+                         text("at most ", rounded(law.rated_speed * units::to_rpm), ", the rated one"));
+    law.check();
+    take(options.report, in_words(law, machine.operation.source));
     return law;
 }
 
-std::vector<Operation> scheduled(const WindRun& run) {
-    const std::vector<Operation>& schedule = run.machine.operation.schedule;
-    take(run.options.report, text("operation: as scheduled over the wind, ", rounded(schedule.front().wind), " to ",
-                                  rounded(schedule.back().wind), " m/s"));
+std::vector<Operation> scheduled(const Machine& machine, const WindRunOptions& options) {
+    const std::vector<Operation>& schedule = machine.operation.schedule;
+    take(options.report, text("operation: as scheduled over the wind, ", rounded(schedule.front().wind), " to ",
+                              rounded(schedule.back().wind), " m/s"));
     std::vector<Operation> wanted;
-    wanted.reserve(run.options.winds.size());
-    for (const double wind : run.options.winds) wanted.push_back(operation_at(schedule, wind));
+    wanted.reserve(options.winds.size());
+    for (const double wind : options.winds) wanted.push_back(operation_at(schedule, wind));
     return wanted;
 }
 
@@ -69,11 +75,7 @@ WindOperationOptions operation_options(const Machine& machine, const WindRunOpti
     in_wind.support = support_on(turbine, machine, air.support);
     in_wind.harmonics = o.harmonics;
     in_wind.azimuths = o.azimuths;
-    in_wind.progress = [progress = o.progress, cancelled = o.cancelled, total = static_cast<int>(o.winds.size()),
-                        done = 0](const WindPoint&) mutable {
-        if (progress) progress(++done, total);
-        return !cancelled || !cancelled();
-    };
+    in_wind.cancelled = o.cancelled;
     return in_wind;
 }
 
@@ -81,50 +83,65 @@ WindOperationOptions operation_options(const Machine& machine, const WindRunOpti
 
 WindRun wind_run(const Machine& source, const WindRunOptions& options) {
     WindRunOptions o = options;
+    o.winds = rising(std::move(o.winds), "WindRunOptions::winds", "wind speeds", 1, "m/s", o.report);
     Machine machine = with_settings(source, o.machine, o.report);
     Aerodynamics air = air_of(machine, o.air);
     const bool own_pitch = !o.machine.pitch;
     if (own_pitch && machine.operation.min_pitch.empty())
         o.machine.pitch = pitch_at_speed({}, machine, machine.operation.rotor_speed, o.report);
+    const bool by_law = machine.operation.schedule.empty() || sets_law(o.operation);
+    std::optional<VariableSpeed> law;
+    if (by_law) law = law_of(machine, o, air, own_pitch);
+    std::vector<Operation> wanted = by_law ? std::vector<Operation>() : scheduled(machine, o);
     const AssemblyOptions assembly = assembly_options(machine, o.machine, o.gravity);
     PreparedTurbine ready = assembled(machine, assembly, o.max_frequency_hz, machine.operation.rotor_speed, o.report);
     keep_elements(ready.mesh, o.machine);
     WindOperationOptions in_wind = operation_options(machine, o, air, ready.turbine);
     WindOperation operation(machine.description, assembly_options(machine, o.machine, o.gravity), air.blade, in_wind);
+    take(o.report, text("air of the operating points: ", air_in_equilibrium(air)));
     return {.machine = std::move(machine),
             .options = std::move(o),
             .own_pitch = own_pitch,
             .air = std::move(air),
             .ready = std::move(ready),
             .in_wind = std::move(in_wind),
-            .operation = std::move(operation)};
+            .operation = std::move(operation),
+            .law = std::move(law),
+            .scheduled = std::move(wanted)};
+}
+
+const WindPoint* next_point(WindRun& run) {
+    const WindRunOptions& o = run.options;
+    const auto cancelled = [&] { return o.cancelled && o.cancelled(); };
+    while (run.tried < o.winds.size() && !cancelled()) {
+        const std::size_t i = run.tried;
+        WindPoint point = run.law ? run.operation.at(o.winds[i], *run.law) : run.operation.at(run.scheduled[i]);
+        if (!point.converged && cancelled()) break;
+        run.complete = ++run.tried == o.winds.size();
+        if (point.converged) {
+            run.truncation_residual = std::max(run.truncation_residual, point.remainder);
+            return &run.points.emplace_back(std::move(point));
+        }
+        report_remark(o.report, {Remark::Kind::warning, text("not converged: ", point.message)});
+        run.not_converged.push_back(point.operation.wind);
+    }
+    return nullptr;
 }
 
 void find_points(WindRun& run) {
     const WindRunOptions& o = run.options;
-    take(o.report, text("air of the operating points: ", air_in_equilibrium(run.air)));
-    const bool by_law = run.machine.operation.schedule.empty() || sets_law(o.operation);
-    std::vector<WindPoint> all = by_law ? run.operation.over(o.winds, law_of(run)) : run.operation.over(scheduled(run));
-    run.complete = all.size() == o.winds.size() && (!o.cancelled || !o.cancelled());
-    for (WindPoint& point : all) {
-        if (!point.converged) {
-            report_remark(o.report, {Remark::Kind::warning, text("not converged: ", point.message)});
-            run.not_converged.push_back(point.operation.wind);
-            continue;
-        }
-        run.truncation_residual = std::max(run.truncation_residual, point.remainder);
-        run.points.push_back(std::move(point));
-    }
+    const auto total = static_cast<int>(o.winds.size());
+    if (o.progress) o.progress(0, total);
+    while (next_point(run) != nullptr)
+        if (o.progress) o.progress(static_cast<int>(run.tried), total);
 }
 
 FinerPoint finer_point(const WindRun& run, const Operation& at) {
     MachineSettings settings = run.options.machine;
     settings.blade_elements = 2 * run.ready.mesh.blade_elements;
     settings.tower_elements = 2 * run.ready.mesh.tower_elements;
-    WindOperationOptions in_wind = run.in_wind;
-    in_wind.progress = {};
     WindOperation operation(run.machine.description, assembly_options(run.machine, settings, run.options.gravity),
-                            run.air.blade, in_wind);
+                            run.air.blade, run.in_wind);
     WindPoint point = operation.at(at);
     return {std::move(operation), std::move(point)};
 }

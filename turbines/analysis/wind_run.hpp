@@ -15,7 +15,7 @@
 namespace cardan::turbines {
 
 struct WindRunOptions {
-    std::vector<double> winds = {};  ///< at the hub's height, m/s
+    std::vector<double> winds = {};  ///< at the hub's height, m/s; taken in rising order and each once
     OperationSettings operation = {};
     AirSettings air = {};
     MachineSettings machine = {};
@@ -24,7 +24,7 @@ struct WindRunOptions {
     double max_frequency_hz = 0;       ///< up to which the mesh is to be accurate
     Report report = {};
     std::function<void(int done, int total)> progress = {};  ///< after every operating point
-    std::function<bool()> cancelled = {};                    ///< asked after every point; true: no further ones
+    std::function<bool()> cancelled = {};                    ///< asked often; true: no further points
 };
 
 /// The machine made ready, and its operating points.
@@ -36,18 +36,25 @@ struct WindRun {
     PreparedTurbine ready;
     WindOperationOptions in_wind;
     WindOperation operation;
+    std::optional<VariableSpeed> law = {};  ///< how it runs; none: `scheduled`, by wind
+    std::vector<Operation> scheduled = {};
+    std::size_t tried = 0;                   ///< of the winds
     std::vector<WindPoint> points = {};      ///< that converged
     std::vector<double> not_converged = {};  ///< winds of the others, m/s
     double truncation_residual = 0;          ///< WindPoint::remainder, the largest
-    bool complete = false;                   ///< false: it was cancelled
+    bool complete = false;                   ///< all winds were tried
 };
 
 /// Without points as yet.
-/// @throws InputError for a machine without airfoils
+/// @throws InputError for a machine without airfoils, for one that says neither schedule nor rated power, and for winds
+/// that its schedule does not have
 WindRun wind_run(const Machine& source, const WindRunOptions& options);
 
-/// One after the other; those that do not converge are reported as warnings.
-/// @throws InputError for a machine that says neither schedule nor rated power
+/// The next point that converges, which is the last of the run's points then; those that do not are reported as
+/// warnings. Null: there are no more, or it was cancelled.
+const WindPoint* next_point(WindRun& run);
+
+/// All of them.
 void find_points(WindRun& run);
 
 /// One operation by twice as many elements, of which deflections and twist of bent blades ask for more than frequencies

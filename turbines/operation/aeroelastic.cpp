@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
+#include <optional>
 #include <utility>
 
 namespace cardan::turbines {
@@ -96,24 +98,32 @@ AeroelasticPoint aeroelastic(const WindOperation& operation, const WindPoint& po
     return out;
 }
 
+solvers::Campbell aeroelastic_campbell(const WindOperation& operation, const std::function<const WindPoint*()>& next,
+                                       std::size_t count, const AeroelasticOptions& air,
+                                       solvers::CampbellOptions options) {
+    if (options.method == solvers::CampbellMethod::automatic) options.method = method_for(operation);
+    std::deque<AeroelasticPoint> machines;  // that stay where they are
+    const auto machine = [&]() -> std::optional<solvers::CampbellCase> {
+        const WindPoint* point = next();
+        while (point && !point->converged) point = next();
+        if (!point) return std::nullopt;
+        const AeroelasticPoint& one = machines.emplace_back(aeroelastic(operation, *point, air));
+        return solvers::CampbellCase{.system = &one.machine.system(),
+                                     .rotor = &one.machine.rotor(),
+                                     .rotor_speed = point->operation.rotor_speed,
+                                     .parameter = point->operation.wind,
+                                     .start = one.start,
+                                     .state_start = one.state_start};
+    };
+    return solvers::campbell(machine, count, wind_parameter, options);
+}
+
 solvers::Campbell aeroelastic_campbell(const WindOperation& operation, std::span<const WindPoint> points,
                                        const AeroelasticOptions& air, solvers::CampbellOptions options) {
-    if (options.method == solvers::CampbellMethod::automatic) options.method = method_for(operation);
-    std::vector<AeroelasticPoint> machines;
-    machines.reserve(points.size());
-    std::vector<solvers::CampbellCase> cases;
-    for (const WindPoint& point : points) {
-        if (!point.converged) continue;
-        const AeroelasticPoint& one = machines.emplace_back(aeroelastic(operation, point, air));
-        cases.push_back({.system = &one.machine.system(),
-                         .rotor = &one.machine.rotor(),
-                         .rotor_speed = point.operation.rotor_speed,
-                         .parameter = point.operation.wind,
-                         .start = one.start,
-                         .state_start = one.state_start});
-    }
-    if (cases.empty()) throw InputError("aeroelastic modes", "operating points that converged", 0, "at least 1");
-    return solvers::campbell(cases, wind_parameter, options);
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(points, &WindPoint::converged));
+    if (count == 0) throw InputError("aeroelastic modes", "operating points that converged", 0, "at least 1");
+    const auto next = [&, i = std::size_t(0)]() mutable { return i < points.size() ? &points[i++] : nullptr; };
+    return aeroelastic_campbell(operation, next, count, air, std::move(options));
 }
 
 solvers::PeriodicSteadyState steady_state(const AeroelasticPoint& point, double rotor_speed, int harmonics) {

@@ -9,6 +9,8 @@
 #include "solvers/campbell/diagram.hpp"
 #include "turbines/operation/wind_operation.hpp"
 
+#include <functional>
+#include <span>
 #include <string_view>
 
 namespace cardan::turbines {
@@ -54,6 +56,14 @@ AeroelasticPoint aeroelastic(const WindOperation& operation, const WindPoint& po
 /// @throws InputError where no point converged, and as solvers::campbell()
 solvers::Campbell aeroelastic_campbell(const WindOperation& operation, std::span<const WindPoint> points,
                                        const AeroelasticOptions& air, solvers::CampbellOptions options);
+
+/// Likewise with operating points that are found one by one, each after the modes of the one before. Without any point
+/// the diagram is empty.
+/// @param next   null: there are no more; those that did not converge are left out
+/// @param count  of points, for CampbellOptions::progress
+solvers::Campbell aeroelastic_campbell(const WindOperation& operation, const std::function<const WindPoint*()>& next,
+                                       std::size_t count, const AeroelasticOptions& air,
+                                       solvers::CampbellOptions options);
 
 /// The steady state of a point with its lagging air, periodic; for linear models.
 /// @param harmonics  of the revolution at first (PeriodicOptions::more_harmonics)

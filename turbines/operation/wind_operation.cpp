@@ -139,6 +139,7 @@ WindPoint WindOperation::solve(const Operation& operation, const Matrix& start) 
             periodic.harmonics = options_.harmonics;
             if (air.has_tower_influence()) periodic.samples = std::max(4 * (options_.harmonics + 1), options_.azimuths);
             periodic.start = from;
+            periodic.cancelled = options_.cancelled;
             periodic.rotor = &windy.rotor();
             const solvers::PeriodicSteadyState found = solvers::harmonic_balance(windy.system(), spin, periodic);
             take(found);
@@ -199,7 +200,8 @@ void WindOperation::evaluate(WindPoint& point, const MachineAir& air, const Turb
 // From the last state that was found, in one step or in parts.
 WindPoint WindOperation::at(const Operation& operation) {
     WindPoint point = solve(operation, last_);
-    if (!point.converged && last_operation_) {
+    const auto cancelled = [&] { return options_.cancelled && options_.cancelled(); };
+    if (!point.converged && last_operation_ && !cancelled()) {
         const Operation from = *last_operation_;
         for (int parts = 2; parts <= 32 && !point.converged; parts *= 2) {
             Matrix start = last_;

@@ -86,6 +86,8 @@ struct WindOperationOptions {
     /// Called after every point; false: no further ones.
     std::function<bool(const WindPoint&)> progress = {};
     AeroSupport support = {};  ///< air on tower and nacelle; a tower that changes the wind makes states periodic
+    /// Asked often while a point is sought; true: it does not converge, and says so.
+    std::function<bool()> cancelled = {};
 };
 
 /// One per thread.

@@ -51,10 +51,10 @@ void read_wake(OpenFastFile& file, RotorAirOptions& options) {
     const char* const keyword = present(file, "Wake_Mod", "WakeMod");
     const int wake = choice(file, "Wake_Mod", "WakeMod", 1);
     options.induction = wake != 0;
-    if (wake == 2) file.note(keyword, "the wake is in equilibrium here");
-    if (wake == 3) file.note(keyword, "no free vortices here, but blade-element momentum");
+    if (wake == 2) file.left_out(keyword, "the wake is in equilibrium here");
+    if (wake == 3) file.left_out(keyword, "no free vortices here, but blade-element momentum");
     if (file.number_or_default("DBEMT_Mod", 0) > 0 && (wake == 2 || file.has("Wake_Mod")))
-        file.note("DBEMT_Mod", "the wake is in equilibrium here");
+        file.left_out("DBEMT_Mod", "the wake is in equilibrium here");
     if (file.number_or_default("BEM_Mod", 1) == 2)
         file.note("BEM_Mod", "the balance of momentum is along the blade's own normal here, with Buhl's relation (1)");
 }
@@ -63,11 +63,11 @@ void read_skew(OpenFastFile& file, RotorAirOptions& options) {
     bool redistributed = true;
     if (file.has("Skew_Mod")) {
         redistributed = choice(file, "Skew_Mod", "", 1) == 1 && file.number_or_default("SkewRedistr_Mod", 1) == 1;
-        if (file.has("SkewMomCorr") && file.flag("SkewMomCorr")) file.note("SkewMomCorr", "without effect here");
+        if (file.has("SkewMomCorr") && file.flag("SkewMomCorr")) file.left_out("SkewMomCorr", "without effect here");
     } else if (file.has("SkewMod")) {
         const int mode = choice(file, "SkewMod", "", 2);
         redistributed = mode == 2;
-        if (mode == 3) file.note("SkewMod", "without effect here");
+        if (mode == 3) file.left_out("SkewMod", "without effect here");
     }
     options.skew = redistributed ? Skew::pitt_peters : Skew::none;
     for (const char* factor : {"SkewRedistrFactor", "SkewModFactor"})
@@ -234,7 +234,7 @@ AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, d
     keep_steady(file, out);
     for (int k = 2; k <= 3; ++k)
         if (file.has(blade(k)) && file.word(blade(k)) != file.word(blade(1)))
-            file.note(blade(k), "all blades have the sections of the first one here");
+            file.left_out(blade(k), "all blades have the sections of the first one here");
     const std::vector<FileNote> main_notes = file.notes(ignored_by_aerodyn());
     out.notes.insert(out.notes.begin(), main_notes.begin(), main_notes.end());
     return out;

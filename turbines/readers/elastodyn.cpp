@@ -94,7 +94,8 @@ private:
         out_.yaw_drive = context_.yaw;
         d_.yaw.rotation = file_.flag("YawDOF") ? context_.yaw : rigid_joint;
         if (file_.flag("YawDOF") && context_.yaw.is_rigid())
-            file_.note("YawDOF", "stiffness and damping of the yaw drive are in the ServoDyn file: rigid without it");
+            file_.left_out("YawDOF",
+                           "stiffness and damping of the yaw drive are in the ServoDyn file: rigid without it");
     }
 
     void read_nacelle() {
@@ -130,7 +131,7 @@ private:
         if (file_.flag_or("GBRevers", false)) file_.note("GBRevers", "the generator turns as the rotor does here");
         if (!file_.flag("DrTrDOF")) t.main_shaft = rigid_joint;
         if (!file_.flag("GenDOF")) t.spin = CoordinateRole::driven;
-        file_.note_unless("GBoxEff", 100, "losses of the gearbox: not part of the model");
+        file_.left_out_unless("GBoxEff", 100, "losses of the gearbox: not part of the model");
     }
 
     void read_hub() {
@@ -169,19 +170,20 @@ private:
         teeter.bearing = rigid_joint;
         if (!file_.flag_or("TeetDOF", false)) return;
         teeter.bearing = free_joint;
-        if (file_.integer("TeetMod", 0, 2) == 2) file_.note("TeetMod", "a user's routine: no spring, no damper here");
+        if (file_.integer("TeetMod", 0, 2) == 2)
+            file_.left_out("TeetMod", "a user's routine: no spring, no damper here");
         if (file_.integer("TeetMod", 0, 2) != 1) return;
         if (file_.number_or("TeetDmpP", 0) == 0)
             teeter.bearing.damping = not_negative("TeetDmp");
         else
-            file_.note("TeetDmpP", "a damper that acts beyond an angle: not part of the description");
+            file_.left_out("TeetDmpP", "a damper that acts beyond an angle: not part of the description");
         const double spring = not_negative("TeetSSSp");
         if (file_.number("TeetSStP") != 0)
-            file_.note("TeetSStP", "a stop: its spring is not part of the description");
+            file_.left_out("TeetSStP", "a stop: its spring is not part of the description");
         else if (spring > 0)
             teeter.bearing = {spring, teeter.bearing.damping};
-        file_.note_unless("TeetCDmp", 0, "friction of the teeter bearing: not part of the model");
-        file_.note_unless("TeetHSSp", 0, "a stop: its spring is not part of the description");
+        file_.left_out_unless("TeetCDmp", 0, "friction of the teeter bearing: not part of the model");
+        file_.left_out_unless("TeetHSSp", 0, "a stop: its spring is not part of the description");
     }
 
     void read_blades() {
@@ -303,11 +305,11 @@ private:
         set_dofs(f, d_);
         for (const char* keyword : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
             if (file_.flag_or(keyword, false)) {
-                file_.note(keyword, "the tower is clamped at its foot; see TurbineDescription::platform");
+                file_.left_out(keyword, "the tower is clamped at its foot; see TurbineDescription::platform");
                 d_.missing_foundation.name = "floating platform";
             }
-        if (file_.flag_or("PitchDOF", false)) file_.note("PitchDOF", "the pitch bearings are rigid");
-        if (file_.flag_or("Furling", false)) file_.note("Furling", "furling is not part of the model");
+        if (file_.flag_or("PitchDOF", false)) file_.left_out("PitchDOF", "the pitch bearings are rigid");
+        if (file_.flag_or("Furling", false)) file_.left_out("Furling", "furling is not part of the model");
     }
 
     void note_states() {
@@ -327,7 +329,7 @@ private:
             file_.note_unless(keyword, 0, "initial condition: those of a simulation are given to it here");
         for (const char* keyword : {"PtfmMass", "PtfmRIner", "PtfmPIner", "PtfmYIner", "PtfmXYIner", "PtfmYZIner",
                                     "PtfmXZIner", "PtfmCMxt", "PtfmCMyt", "PtfmCMzt", "PtfmRefzt"})
-            file_.note_unless(keyword, 0, "a platform is not read; see TurbineDescription::platform");
+            file_.left_out_unless(keyword, 0, "a platform is not read; see TurbineDescription::platform");
     }
 
     OpenFastFile file_;

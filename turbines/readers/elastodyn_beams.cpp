@@ -100,7 +100,7 @@ void note_column(std::vector<FileNote>& notes, const OpenFastTable& table, const
     if (!holds(table, name)) return;
     const std::vector<double>& values = table.column(name);
     const double first = *std::find_if(values.begin(), values.end(), [](double value) { return value != 0; });
-    notes.push_back({table.file, table.line, name, text(first, " ..."), why});
+    notes.push_back({table.file, table.line, name, text(first, " ..."), why, FileNote::Kind::left_out});
 }
 
 // Columns of FAST 7 that ElastoDyn has no longer.
@@ -124,7 +124,9 @@ void note_other_columns(std::vector<FileNote>& notes, const OpenFastTable& table
         if (std::none_of(read.begin(), read.end(), [&](std::string_view known) { return one.has(known); }))
             others += (others.empty() ? "" : ", ") + name;
     }
-    if (!others.empty()) notes.push_back({table.file, 0, others, "", "columns without meaning for the structure"});
+    if (!others.empty())
+        notes.push_back(
+            {table.file, 0, others, "", "columns without meaning for the structure", FileNote::Kind::unused});
 }
 
 std::size_t rows_of(OpenFastFile& file, const char* keyword) {
@@ -174,7 +176,7 @@ ElastoDynBeam elastodyn_blade(const std::filesystem::path& path, double length) 
     modal.bending_z = ratios(file, {"BldEdDmp(1)"});
     blade.damping = BeamDamping::of_modes(modal);
     for (const char* keyword : {"FlStTunr(1)", "FlStTunr(2)"})
-        file.note_unless(keyword, 1, "tunes the stiffness of one mode; the beam has the stiffness of the table");
+        file.left_out_unless(keyword, 1, "tunes the stiffness of one mode; the beam has the stiffness of the table");
     note_old_columns(blade.notes, t, {"GJStff", "EAStff", "FlpIner", "EdgIner", "FlpcgOf", "EdgcgOf"});
     note_column(blade.notes, t, "Alpha", "coupling of flap and twist: not used");
     for (const char* offset : {"FlpEAOf", "EdgEAOf", "PrecrvRef", "PreswpRef"})
@@ -217,7 +219,7 @@ ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length) 
     modal.bending_y = ratios(file, {"TwrSSDmp(1)", "TwrSSDmp(2)"});
     tower.damping = BeamDamping::of_modes(modal);
     for (const char* keyword : {"FAStTunr(1)", "FAStTunr(2)", "SSStTunr(1)", "SSStTunr(2)"})
-        file.note_unless(keyword, 1, "tunes the stiffness of one mode; the beam has the stiffness of the table");
+        file.left_out_unless(keyword, 1, "tunes the stiffness of one mode; the beam has the stiffness of the table");
     note_old_columns(tower.notes, t, {"TwGJStif", "TwEAStif", "TwFAIner", "TwSSIner"});
     for (const char* offset : {"TwFAcgOf", "TwSScgOf"})
         note_column(tower.notes, t, offset, "the mass centres of the tower lie on its axis here");

@@ -21,7 +21,7 @@ ServoDyn servo_of(OpenFastFile& main) {
     try {
         return read_servodyn(main.path("ServoFile"));
     } catch (const FileError& error) {
-        main.note("ServoFile", text("not read (", error.what(), "); the yaw joint is rigid"));
+        main.left_out("ServoFile", text("not read (", error.what(), "); the yaw joint is rigid"));
     }
     return servo;
 }
@@ -102,7 +102,7 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     if (main.number_or("NRotors", 1) != 1)
         main.fail("NRotors", text("NRotors = ", main.number("NRotors"), "; allowed: 1"));
     if (main.has("MirrorRotor") && main.flag("MirrorRotor"))
-        main.note("MirrorRotor", "the rotor turns clockwise seen from upwind here");
+        main.left_out("MirrorRotor", "the rotor turns clockwise seen from upwind here");
     const int kind = main.integer("CompElast", 1, 2);
     ServoDyn servo = servo_of(main);
     ElastoDynContext context;
@@ -114,9 +114,9 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     std::string& foundation = out.description.missing_foundation.name;
     foundation = missing_foundation(main, foundation);
     for (const char* keyword : {"CompHydro", "CompSub", "CompMooring", "CompIce"})
-        main.note_unless(keyword, 0,
-                         "what the tower stands on is not part of the description; it is clamped at its foot");
-    main.note_unless("MHK", 0, "a machine under water is not part of the model");
+        main.left_out_unless(keyword, 0,
+                             "what the tower stands on is not part of the description; it is clamped at its foot");
+    main.left_out_unless("MHK", 0, "a machine under water is not part of the model");
     append(out.notes, main.notes({{{"*"}, "simulation, aerodynamics and output: without meaning for the machine"}}));
     append(out.notes, std::move(servo.notes));
     set_operation(out, servo);

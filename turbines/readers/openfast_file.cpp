@@ -347,7 +347,17 @@ void OpenFastFile::note_unless(std::string_view keyword, double neutral, std::st
     if (has(keyword) && number(keyword) != neutral) note(keyword, std::move(why));
 }
 
+void OpenFastFile::left_out(std::string_view keyword, std::string why) {
+    note(keyword, std::move(why));
+    notes_.back().kind = FileNote::Kind::left_out;
+}
+
+void OpenFastFile::left_out_unless(std::string_view keyword, double neutral, std::string why) {
+    if (has(keyword) && number(keyword) != neutral) left_out(keyword, std::move(why));
+}
+
 std::vector<FileNote> OpenFastFile::notes(const std::vector<KeywordGroup>& groups) const {
+    constexpr FileNote::Kind unused = FileNote::Kind::unused;
     std::vector<FileNote> out = notes_;
     // In files whose other entries are all irrelevant, these are irrelevant too.
     const bool lone_numbers = std::none_of(groups.begin(), groups.end(), [](const KeywordGroup& g) {
@@ -368,12 +378,13 @@ std::vector<FileNote> OpenFastFile::notes(const std::vector<KeywordGroup>& group
         std::string value;
         for (const Token& token : line.tokens) value += (value.empty() ? "" : ", ") + token.text;
         if (line.keyword.empty())
-            out.push_back({file_, line.number, "line without a keyword", value, "without effect"});
+            out.push_back({file_, line.number, "line without a keyword", value, "without effect", unused});
         else
-            out.push_back({file_, line.number, line.keyword, value, "not known to this reader and without effect"});
+            out.push_back(
+                {file_, line.number, line.keyword, value, "not known to this reader and without effect", unused});
     }
     for (std::size_t g = 0; g < groups.size(); ++g)
-        if (!members[g].empty()) out.push_back({file_, 0, joined(members[g]), "", std::string(groups[g].why)});
+        if (!members[g].empty()) out.push_back({file_, 0, joined(members[g]), "", std::string(groups[g].why), unused});
     return out;
 }
 

@@ -110,7 +110,10 @@ public:
     void note_of(std::string_view keyword, std::size_t part, std::string why);
     /// As note(), if the entry exists and its number differs from the one without effect.
     void note_unless(std::string_view keyword, double neutral, std::string why);
-    /// Those of the three functions above.
+    /// As note() and note_unless(), of what the file asks for and the model does not have (FileNote::Kind::left_out).
+    void left_out(std::string_view keyword, std::string why);
+    void left_out_unless(std::string_view keyword, double neutral, std::string why);
+    /// Those of the functions above.
     const std::vector<FileNote>& added_notes() const { return notes_; }
     /// Notes on unused entries: by groups, then one by one.
     std::vector<FileNote> notes(const std::vector<KeywordGroup>& groups) const;

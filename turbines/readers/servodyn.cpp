@@ -28,7 +28,7 @@ std::optional<ControllerFile> controller_file(OpenFastFile& file) {
     try {
         return ControllerFile(text_file(file.path("DLL_InFile")));
     } catch (const FileError& error) {
-        file.note("DLL_InFile", text("not read (", error.what(), "); it may have the rated speed and the pitch"));
+        file.left_out("DLL_InFile", text("not read (", error.what(), "); it may have the rated speed and the pitch"));
     }
     return std::nullopt;
 }
@@ -103,7 +103,7 @@ Bearing yaw_drive(OpenFastFile& file) {
     const Bearing drive{file.number("YawSpr"), file.number("YawDamp")};
     if (drive.damping < 0) file.fail("YawDamp", text("YawDamp = ", drive.damping, "; allowed: >= 0"));
     if (drive.stiffness < 0) file.fail("YawSpr", text("YawSpr = ", drive.stiffness, "; allowed: >= 0"));
-    file.note_unless("YawNeut", 0, "the nacelle points into the wind here");
+    file.left_out_unless("YawNeut", 0, "the nacelle points into the wind here");
     return drive.stiffness == 0 ? Bearing{0, drive.damping, Bearing::Hold::free} : drive;
 }
 
@@ -127,9 +127,9 @@ ServoDyn read_servodyn(const std::filesystem::path& path) {
         servo.speed_source = speed.source;
     }
     for (const char* keyword : {"NumBStC", "NumNStC", "NumTStC", "NumSStC"})
-        file.note_unless(keyword, 0, "dampers and masses of structural control are not part of the model");
+        file.left_out_unless(keyword, 0, "dampers and masses of structural control are not part of the model");
     for (const char* keyword : {"CompNTMD", "CompTTMD"})
-        if (file.flag_or(keyword, false)) file.note(keyword, "tuned mass dampers are not part of the model");
+        if (file.flag_or(keyword, false)) file.left_out(keyword, "tuned mass dampers are not part of the model");
     servo.controller = controller_of(file, needed);
     if (controller) {
         servo.controller.gains = gains_of(*controller);

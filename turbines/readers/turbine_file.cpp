@@ -23,6 +23,10 @@ std::string refused(TurbineDescription machine, bool unusual) {
 
 }  // namespace
 
+std::size_t FileNote::entries() const {
+    return line == 0 ? static_cast<std::size_t>(std::ranges::count(keyword, ',')) + 1 : 1;
+}
+
 void set_dofs(const FileDofs& dofs, TurbineDescription& description) {
     description.drive_train.spin = dofs.generator ? CoordinateRole::free : CoordinateRole::driven;
     TowerDescription& tower = description.tower;

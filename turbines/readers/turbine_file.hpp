@@ -5,7 +5,9 @@
 #include "turbines/model/description.hpp"
 #include "turbines/model/pitch_schedule.hpp"
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace cardan::turbines {
@@ -14,11 +16,22 @@ namespace cardan::turbines {
 /// for. Entries that are irrelevant for the structure (output, solver settings, aerodynamics) give one note per group
 /// that lists their keywords; line and value are then empty.
 struct FileNote {
+    /// What it means for results.
+    enum class Kind : std::uint8_t {
+        otherwise,  ///< said here in another way, or taken from elsewhere
+        left_out,   ///< the file asks for something that the model does not have
+        unused      ///< of no meaning for the model
+    };
+
     std::string file;
     int line = 0;  ///< 0: none
     std::string keyword;
     std::string value;
     std::string why;
+    Kind kind = Kind::otherwise;
+
+    /// Of a group all that it lists.
+    std::size_t entries() const;
 };
 
 /// "file:12: NacYaw = 3: the nacelle points into the wind here"

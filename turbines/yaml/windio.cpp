@@ -57,8 +57,8 @@ void collect(const YamlNode& node, std::vector<FileNote>& out) {
         if (entry.was_read())
             collect(entry, out);
         else if (!entry.path().ends_with(".name"))
-            out.push_back(
-                {entry.file(), entry.line(), entry.path(), "", "not used: no part of the structure as it is modelled"});
+            out.push_back({entry.file(), entry.line(), entry.path(), "",
+                           "not used: no part of the structure as it is modelled", FileNote::Kind::unused});
 }
 
 }  // namespace
@@ -72,8 +72,9 @@ std::vector<FileNote> WindioFile::unused() const {
         else if (entry.path() != "materials")  // of which others hold much
             collect(entry, out);
     if (!others.empty())
-        out.push_back(
-            {root_.file(), 0, others, "", "aerodynamics, control, costs, remarks: without meaning for the machine"});
+        out.push_back({root_.file(), 0, others, "",
+                       "aerodynamics, control, costs, remarks: without meaning for the machine",
+                       FileNote::Kind::unused});
     return out;
 }
 

@@ -152,6 +152,7 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     options.rotor_speed = rotor_speed;
     options.start = state_ ? state_->coefficients : start_;
     options.state_start = state_ ? state_->state_coefficients : state_start_;
+    options.cancelled = options_.cancelled;
     PeriodicSteadyState found = harmonic_balance(system_, rotor_.spin, options);
     if (!found.converged && state_) {
         const std::array from_the_last{state_->rotor_speed, rotor_speed};

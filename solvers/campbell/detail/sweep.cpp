@@ -73,8 +73,17 @@ void find_crossings(Campbell& diagram) {
               [](const Crossing& a, const Crossing& b) { return a.rotor_speed < b.rotor_speed; });
 }
 
+// "wind speed 8 m/s, 6.9 rpm" of the parameter "wind speed, m/s".
+void tell_place(std::ostream& out, const std::string& parameter, double value, double rotor_speed) {
+    const std::size_t comma = parameter.rfind(", ");
+    if (!parameter.empty())
+        out << parameter.substr(0, comma) << " " << value
+            << (comma == std::string::npos ? "" : " " + parameter.substr(comma + 2)) << ", ";
+    out << rotor_speed * units::to_rpm << " rpm";
+}
+
 // A growing aperiodic motion is not a branch, but it must not go unnoticed.
-void warn_of_instability(const CampbellPoint& point, std::string& warning) {
+void warn_of_instability(const CampbellPoint& point, const std::string& parameter, double value, std::string& warning) {
     if (!warning.empty() || !(point.stability_margin < 0)) return;
     Complex fastest = 0;
     const double lowest = lowest_vibration(point.modes);
@@ -88,8 +97,9 @@ void warn_of_instability(const CampbellPoint& point, std::string& warning) {
     if (fastest.real() == 0) return;
     std::ostringstream out = text_stream();
     out.precision(4);
-    out << "unstable at " << point.rotor_speed * units::to_rpm << " rpm: a motion at " << fastest.imag() / (2 * pi)
-        << " Hz grows with " << fastest.real() << " 1/s";
+    out << "unstable at ";
+    tell_place(out, parameter, value, point.rotor_speed);
+    out << ": a motion at " << fastest.imag() / (2 * pi) << " Hz grows with " << fastest.real() << " 1/s";
     warning = out.str();
 }
 
@@ -159,14 +169,23 @@ void Sweep::set_machine(const System& system, const RotorMap& rotor, const Point
     if (options_.neighbour) neighbour_.emplace(*options_.neighbour).check(diagram_);
 }
 
-bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed) {
-    if (options_.cancelled && options_.cancelled()) {
-        diagram_.complete = false;
-        return false;
+bool Sweep::is_cancelled() {
+    if (!options_.cancelled || !options_.cancelled()) return false;
+    diagram_.complete = false;
+    return true;
+}
+
+bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed, double parameter) {
+    if (is_cancelled()) return false;
+    CampbellPoint point;
+    try {
+        point = solve(solver, rotor_speed);
+    } catch (const NumericalError&) {
+        if (is_cancelled()) return false;
+        throw;
     }
-    CampbellPoint point = solve(solver, rotor_speed);
     const PeriodicMac alike = likeness(solver, point);
-    add(solver, std::move(point), alike);
+    add(solver, std::move(point), alike, parameter);
     systems_.push_back(&system);
     if (options_.progress) options_.progress(static_cast<int>(diagram_.points.size()), static_cast<int>(points_));
     return true;
@@ -189,10 +208,10 @@ bool Sweep::continues(const PeriodicMac& likeness, const CampbellPoint& point) c
     return tracker_.continues(likeness.score, likeness.mac, point, options_.max_frequency_hz);
 }
 
-void Sweep::add(const PointMethod& solver, CampbellPoint point, const PeriodicMac& likeness) {
+void Sweep::add(const PointMethod& solver, CampbellPoint point, const PeriodicMac& likeness, double parameter) {
     tracker_.add(likeness.score, likeness.mac, point);
     if (neighbour_) neighbour_->add(solver.system(), point);
-    if (std::isfinite(point.stability_margin)) warn_of_instability(point, instability_);
+    if (std::isfinite(point.stability_margin)) warn_of_instability(point, diagram_.parameter, parameter, instability_);
     diagram_.points.push_back(std::move(point));
 }
 

@@ -26,7 +26,7 @@ public:
 
     void set_machine(const System& system, const RotorMap& rotor, const PointMethod& solver);
     /// Computes the point of a rotor speed and adds it. False if it was cancelled.
-    bool add(const System& system, PointMethod& solver, double rotor_speed);
+    bool add(const System& system, PointMethod& solver, double rotor_speed, double parameter = 0);
 
     /// Shares are by the components of the first machine.
     /// @throws InputError for a machine that has others
@@ -36,12 +36,14 @@ public:
     /// Tracker::continues() up to the largest frequency of the options.
     bool continues(const PeriodicMac& likeness, const CampbellPoint& point) const;
     /// Without shapes (CampbellOptions::keep_shapes), which need the machine at the end.
-    void add(const PointMethod& solver, CampbellPoint point, const PeriodicMac& likeness);
+    /// @param parameter  its place on the axis, where that is not of rotor speeds
+    void add(const PointMethod& solver, CampbellPoint point, const PeriodicMac& likeness, double parameter);
 
     /// @param solvers  by point, or one for all
     Campbell finish(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers);
 
 private:
+    bool is_cancelled();
     void align(const EnergyShares& own, CampbellPoint& point);
     PeriodicMac likeness_of_periodic(const PointMethod& solver, const CampbellPoint& point) const;
     void set_branches(const std::vector<const PointMethod*>& solvers);

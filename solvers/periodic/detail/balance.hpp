@@ -19,6 +19,9 @@ namespace cardan::solvers {
 /// harmonics of the residual, which become zero.
 class Balance {
 public:
+    /// Thrown out of solve().
+    struct Cancelled {};
+
     Balance(const System& system, int spin, const PeriodicOptions& options);
     PeriodicSteadyState solve();
 
