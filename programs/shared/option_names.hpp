@@ -42,6 +42,8 @@ inline std::string in_options(std::string text) {
         {"CampbellSettings::max_frequency_hz", "--max-frequency"},
         {"CampbellSettings::harmonics", "--harmonics"},
         {"OperationSettings::rated_power", "--rated-power"},
+        {"OperationSettings::rated_rotor_speed", "--rated-rpm"},
+        {"PartModesSettings::max_frequency_hz", "--max-frequency"},
         {"LinearModelSettings::rotor_speed", "--rpm"},
         {"LinearModelSettings::max_frequency_hz", "--max-frequency"},
         {"LinearModelSettings::harmonics", "--harmonics"},

@@ -45,8 +45,11 @@ VariableSpeed law_of(const WindRun& run) {
         law.tip_speed_ratio =
             best_tip_speed_ratio(run.air.blade, d.blades, d.blade.cone, law.fine_pitch, run.air.options);
     if (law.rated_power == 0)
-        throw InputError("OperationSettings::rated_power", "value", "none",
+        throw InputError("OperationSettings::rated_power", "value", "none, and the model names none",
                          "power of the air on the rotor at rated wind; or a schedule of the machine");
+    if (law.rated_speed == 0)
+        throw InputError("OperationSettings::rated_rotor_speed", "value", "none, and the model names none",
+                         "speed of the rotor from rated wind on; or a schedule of the machine");
     take(run.options.report, in_words(law, run.machine.operation.source));
     return law;
 }
