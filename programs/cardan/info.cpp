@@ -97,26 +97,32 @@ void print_result(const std::string& file, bool description) {
     if (description) std::cout << "\ninput description:\n" << turbines::input_description(file) << "\n";
 }
 
-void print_masses(const turbines::Turbine& turbine) {
-    std::map<std::string, double> parts;
+using Part = turbines::MissingEntry::Part;
+
+void add_masses(const turbines::Turbine& turbine, std::map<std::string, double>& parts) {
+    for (const PartMass& part : masses_by_part(turbine.tree())) parts[part.part] += part.mass;
+}
+
+void print_masses(const std::map<std::string, double>& parts, bool whole) {
     double total = 0;
-    for (const PartMass& part : masses_by_part(turbine.tree())) {
-        parts[part.part] += part.mass;
-        total += part.mass;
-    }
     std::printf("masses, kg\n");
-    for (const auto& [part, mass] : parts) std::printf("  %-24s %14.6g\n", part.c_str(), mass);
-    std::printf("  %-24s %14.6g\n", "total", total);
+    for (const auto& [part, mass] : parts) {
+        std::printf("  %-24s %14.6g\n", part.c_str(), mass);
+        total += mass;
+    }
+    if (whole) std::printf("  %-24s %14.6g\n", "total", total);
 }
 
 void print_size(const turbines::TurbineDescription& d) {
     const double height = d.tower.line.length + d.nacelle.shaft_height + d.nacelle.overhang * std::sin(d.nacelle.tilt) +
                           (d.platform ? d.platform->tower_foot.z() : 0);
     std::printf("blades        %d, %s\n", d.blades, d.nacelle.overhang < 0 ? "downwind" : "upwind");
-    if (d.blades > 0)
+    if (d.blades > 0 && d.hub.radius > 0 && d.blade.line.length > 0)
         std::printf("rotor         %g m, twice hub radius and blade along the cone\n",
                     2 * (d.hub.radius + d.blade.line.length) * std::cos(d.blade.cone));
-    std::printf("hub height    %g m above the %s\n", height, d.platform ? "water" : "foot of the tower");
+    if (d.tower.line.length > 0)
+        std::printf("%s    %g m above the %s\n", d.nacelle.shaft_height > 0 ? "hub height" : "tower top ", height,
+                    d.platform ? "water" : "foot of the tower");
     if (d.platform) std::printf("stands on     %s\n", d.platform->name.c_str());
 }
 
@@ -140,12 +146,34 @@ void print_operation(const turbines::Machine& machine) {
     if (c.generator_efficiency > 0) std::printf("generator     efficiency %g\n", c.generator_efficiency);
 }
 
-void print_blade(const turbines::Machine& machine, const MachineOptions& options) {
-    if (machine.description.blade_at(1) == nullptr) return;
-    const std::vector<double> hz = turbines::clamped_blade_hz(machine.description, assembly_options(machine, options));
-    std::printf("blade 1 clamped at its root and at rest, Hz (12 elements)\n ");
+void print_hz(const char* what, const std::vector<double>& hz) {
+    std::printf("%s at rest, Hz (12 elements)\n ", what);
     for (std::size_t i = 0; i < hz.size() && i < 6; ++i) std::printf(" %.4f", hz[i]);
     std::printf("\n");
+}
+
+void print_blade(const turbines::Machine& machine, const MachineOptions& options) {
+    if (machine.description.blade_at(1) == nullptr || !machine.description.has(Part::blade)) return;
+    print_hz("blade 1 clamped at its root and",
+             turbines::clamped_blade_hz(machine.description, assembly_options(machine, options)));
+}
+
+// What there is of a machine whose source lacks masses.
+void print_parts(const turbines::Machine& machine, const MachineOptions& coarse, const MachineOptions& options) {
+    const turbines::TurbineDescription& d = machine.description;
+    const turbines::AssemblyOptions assembly = assembly_options(machine, coarse);
+    std::map<std::string, double> masses;
+    if (d.has(Part::blade))
+        for (int number = 1; number <= d.blades; ++number)
+            add_masses(turbines::isolated_blade(d, assembly, number), masses);
+    const bool tower = d.has(Part::tower) && !d.tower.rigid;
+    if (tower) add_masses(turbines::isolated_tower(d, assembly), masses);
+    if (!masses.empty()) print_masses(masses, false);
+    print_blade(machine, options);
+    if (tower)
+        print_hz("tower clamped at its foot, without what it carries,",
+                 turbines::clamped_tower_hz(d, assembly_options(machine, options)));
+    std::printf("%s\n", in_words(d.missing).c_str());
 }
 
 void print_machine(InfoArguments& a) {
@@ -160,9 +188,12 @@ void print_machine(InfoArguments& a) {
     print_operation(machine);
     MachineOptions coarse = a.machine;
     coarse.blade_elements = coarse.tower_elements = 4;
+    if (!d.missing.empty()) return print_parts(machine, coarse, a.machine);
     const turbines::Turbine turbine = turbines::assemble(d, assembly_options(machine, coarse));
     introduce(turbine, false);
-    print_masses(turbine);
+    std::map<std::string, double> masses;
+    add_masses(turbine, masses);
+    print_masses(masses, true);
     print_blade(machine, a.machine);
 }
 

@@ -1,10 +1,11 @@
 // Modes of any machine at one rotor speed: a Campbell diagram of one point, with all that is known of each mode.
 //
 // Problem and theory are those of `cardan campbell`; at rest the modes of all degrees of freedom, a rotor that is free
-// to turn included.
+// to turn included. Of a machine whose source lacks masses those of blade and tower by themselves.
 #include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/analysis/campbell.hpp"
+#include "turbines/analysis/part_modes.hpp"
 
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
@@ -71,10 +72,27 @@ void print(const solvers::Campbell& diagram) {
     if (!diagram.warning.empty()) std::printf("\nwarning: %s\n", diagram.warning.c_str());
 }
 
+// Of a machine whose source lacks masses: nothing is known of the whole, so that no files are written.
+int print_parts(const turbines::Machine& machine, const ModesArguments& a) {
+    turbines::PartModesSettings settings{.machine = numbers_of(a.machine), .max_frequency_hz = a.max_frequency};
+    if (a.rpm != 0) settings.rotor_speeds = {0, a.rpm * units::rpm};
+    const turbines::PartModes parts = turbines::part_modes(machine, settings);
+    stop_at_once();
+    if (!parts.blade && !parts.tower) machine.description.require_complete();
+    for (const auto& part : {parts.blade, parts.tower})
+        if (part) {
+            print_table(*part);
+            std::printf("\n");
+        }
+    std::printf("modes of the parts only: %s\n", in_words(machine.description.missing).c_str());
+    return std::cout.flush() ? 0 : 1;
+}
+
 int run(ModesArguments& a, const CommandLine& command) {
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "modes");
     check_outputs(a.out, {".h5", ".csv"});
     const turbines::Machine machine = prepared_machine(a.machine);
+    if (!machine.description.missing.empty()) return print_parts(machine, a);
     stop_at_once();  // nothing is kept
     turbines::CampbellDiagram diagram = turbines::campbell(machine, {.rotor_speeds = {a.rpm * units::rpm},
                                                                      .machine = numbers_of(a.machine),

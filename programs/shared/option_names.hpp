@@ -51,6 +51,7 @@ inline std::string in_options(std::string text) {
         {"OperationSettings::min_rotor_speed", "--least-rpm"},
         {"WindRunOptions::winds", "--wind"},
         {"LinearModelSettings::wind", "--wind"},
+        {"PartModesSettings::max_frequency_hz", "--max-frequency"},
         {"LinearModelSettings::rotor_speed", "--rpm"},
         {"LinearModelSettings::max_frequency_hz", "--max-frequency"},
         {"LinearModelSettings::harmonics", "--harmonics"},

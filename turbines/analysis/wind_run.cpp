@@ -41,14 +41,15 @@ VariableSpeed law_of(const Machine& machine, const WindRunOptions& options, cons
     law.fine_pitch = options.machine.pitch.value_or(0);
     if (!own_pitch) law.least_pitch.clear();
     if (law.rated_power == 0)
-        throw InputError("OperationSettings::rated_power", "value", "none",
+        throw InputError("OperationSettings::rated_power", "value", "none, and the model names none",
                          "power of the air on the rotor at rated wind; or a schedule of the machine");
     if (own.tip_speed_ratio)
         law.tip_speed_ratio = *own.tip_speed_ratio;
     else if (law.tip_speed_ratio == 0)
         law.tip_speed_ratio = best_tip_speed_ratio(air.blade, d.blades, d.blade.cone, law.fine_pitch, air.options);
     if (!(law.rated_speed > 0))
-        throw InputError("OperationSettings::rated_rotor_speed", "value", "none", "a rotor speed; the model has none");
+        throw InputError("OperationSettings::rated_rotor_speed", "value", "none, and the model names none",
+                         "speed of the rotor from rated wind on; or a schedule of the machine");
     if (law.least_speed > law.rated_speed)
         throw InputError("OperationSettings::min_rotor_speed", "value [rpm]", law.least_speed * units::to_rpm,
                          text("at most ", rounded(law.rated_speed * units::to_rpm), ", the rated one"));

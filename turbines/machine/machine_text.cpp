@@ -25,6 +25,7 @@ std::string written(const Machine& machine, BeamLines lines) {
 }  // namespace
 
 std::string to_yaml(const Machine& machine) {
+    machine.description.require_complete();
     return written(machine, BeamLines::exact);
 }
 

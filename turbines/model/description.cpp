@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace cardan::turbines {
@@ -146,7 +147,29 @@ const BladeDescription* TurbineDescription::blade_at(int number) const {
     return own->second ? &*own->second : nullptr;
 }
 
+std::string in_words(const std::vector<MissingEntry>& entries) {
+    std::string what, numbers, others;
+    for (const MissingEntry& one : entries) {
+        what += text(what.empty() ? "" : "; ", one.what);
+        if (one.value.empty())
+            others += text(others.empty() ? "" : ", ", one.key);
+        else
+            numbers += text(numbers.empty() ? "" : " ", "--set ", one.key, "=", one.value);
+    }
+    if (!others.empty()) others = text("--with FILE, with ", others, numbers.empty() ? "" : "; ");
+    return text("the model lacks: ", what, "; remedy: ", others, numbers);
+}
+
+bool TurbineDescription::has(MissingEntry::Part part) const {
+    return std::ranges::none_of(missing, [part](const MissingEntry& one) { return one.part == part; });
+}
+
+void TurbineDescription::require_complete() const {
+    if (!missing.empty()) throw InputError(text(name, ": ", in_words(missing)));
+}
+
 void TurbineDescription::check() const {
+    require_complete();
     const Ranges ranges(name, unusual);
     require_not_negative(name, "rotor speed [rad/s]", rotor_speed);
     require_not_negative(name, "hub radius [m]", hub.radius);

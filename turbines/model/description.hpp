@@ -11,6 +11,8 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace cardan::turbines {
 
@@ -135,6 +137,19 @@ struct MissingFoundation {
     std::string where;  ///< the foot of the tower is, with the source: "10 m above the water (TowerBsHt)"
 };
 
+/// What the source of a description does not say although no machine can do without it. The description holds zero, or
+/// an empty line, in its place.
+struct MissingEntry {
+    enum class Part : std::uint8_t { tower, nacelle, hub, blade };
+    Part part = Part::tower;
+    std::string what;   ///< "mass of the hub"
+    std::string key;    ///< of the source, which would say it: "components.hub.elastic_properties.mass"
+    std::string value;  ///< what stands for its value in messages, with the unit: "MASS_kg"; empty: it has several
+};
+
+/// What is missing, and how it is given, in one line: "the model lacks: mass of the hub; remedy: --set KEY=MASS_kg".
+std::string in_words(const std::vector<MissingEntry>& entries);
+
 struct TurbineDescription {
     std::string name;
     std::string source;      ///< the text it was read from; kept with every result
@@ -151,6 +166,9 @@ struct TurbineDescription {
     /// What the tower stands on, prescribed or free: a floating platform, a shaking table; none: fixed to the ground.
     std::optional<PlatformDescription> platform = std::nullopt;
     MissingFoundation missing_foundation = {};
+    /// Empty: the machine is whole. Else only parts of it that are can be assembled: isolated_blade(),
+    /// isolated_tower().
+    std::vector<MissingEntry> missing = {};
 
     /// Angles and ratios outside the ranges of machines are meant so, not degrees or per cent.
     bool unusual = false;
@@ -161,8 +179,13 @@ struct TurbineDescription {
     int first_blade() const;
     /// Three or more, all there and alike: multi-blade coordinates make their equations constant, or nearly so.
     bool has_equal_blades() const { return blades > 2 && own_blades.empty(); }
-    /// Refuses what cannot be and, unless `unusual`, what machines do not have: |tilt| > 0.35, |cone| > 0.5, |delta-3|
-    /// > 1.3, |pitch setting| > 3.2 rad, damping ratios > 0.3. Beams are checked where elements are made of them.
+    /// Is this part of the machine there, with all that it needs by itself?
+    bool has(MissingEntry::Part part) const;
+    /// @throws InputError that names what is missing, and how it is given
+    void require_complete() const;
+    /// Refuses what is missing, what cannot be and, unless `unusual`, what machines do not have: |tilt| > 0.35, |cone|
+    /// > 0.5, |delta-3| > 1.3, |pitch setting| > 3.2 rad, damping ratios > 0.3. Beams are checked where elements are
+    /// made of them.
     /// @throws InputError naming machine, field, value and what is allowed
     void check() const;
 };

@@ -18,6 +18,7 @@ std::string written(const TurbineDescription& description, BeamLines lines) {
 }  // namespace
 
 std::string to_yaml(const TurbineDescription& description) {
+    description.require_complete();
     return written(description, BeamLines::exact);
 }
 

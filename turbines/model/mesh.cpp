@@ -256,7 +256,7 @@ bool bends(const BladeDescription& blade) {
     return !blade.rigid && blade.line.section && blade.line.length > 0;
 }
 
-constexpr int fine = 12;  // elements of a blade whose frequencies are asked for
+constexpr int fine = 12;  // elements of a part whose frequencies are asked for
 
 }  // namespace
 
@@ -298,6 +298,16 @@ std::vector<double> clamped_blade_hz(const TurbineDescription& description, cons
     Assembler blade(alone, elements, undamped);
     blade.one_blade(number);
     return frequencies_at_rest(blade, false);
+}
+
+std::vector<double> clamped_tower_hz(const TurbineDescription& description, const AssemblyOptions& options) {
+    const TurbineDescription alone = tower_alone(description);
+    alone.check();
+    AssemblyOptions elements = options;
+    elements.tower_elements = options.tower_elements.value_or(fine);
+    Assembler tower(alone, elements, undamped);
+    tower.tower_alone({});
+    return frequencies_at_rest(tower, false);
 }
 
 double usual_frequency(const TurbineDescription& description, const AssemblyOptions& options) {

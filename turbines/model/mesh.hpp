@@ -46,6 +46,10 @@ Mesh converged_mesh(const TurbineDescription& description, const AssemblyOptions
 std::vector<double> clamped_blade_hz(const TurbineDescription& description, const AssemblyOptions& options = {},
                                      int number = 1);
 
+/// Likewise of the tower, clamped at its foot, without what it carries.
+/// @throws InputError as isolated_tower() does
+std::vector<double> clamped_tower_hz(const TurbineDescription& description, const AssemblyOptions& options = {});
+
 /// A frequency that suits the machine: 1.3 times the third of its first blade by clamped_blade_hz() (second flap, as a
 /// rule), rounded up to two digits, Hz; 5 without a blade that bends.
 double usual_frequency(const TurbineDescription& description, const AssemblyOptions& options = {});

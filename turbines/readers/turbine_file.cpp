@@ -12,6 +12,7 @@ namespace {
 // What is refused; empty: nothing. An inertia that a file does not give is the user's to set.
 std::string refused(TurbineDescription machine, bool unusual) {
     machine.unusual = unusual;
+    machine.missing.clear();
     if (machine.drive_train.generator_inertia == 0) machine.drive_train.generator_inertia = 1;
     try {
         machine.check();

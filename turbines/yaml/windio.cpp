@@ -4,79 +4,13 @@
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/yaml/detail/windio_beams.hpp"
+#include "turbines/yaml/detail/windio_operation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace cardan::turbines {
-
-WindioFile::WindioFile(YamlNode root) : root_(std::move(root)) {
-    const auto given = find({"windIO_version"});
-    if (!given) return;
-    const std::string version = given->word();
-    if (!version.starts_with("1") && !version.starts_with("2"))
-        given->fail(text("version ", version, "; allowed: 1.x and 2.x"));
-    version_ = version[0] - '0';
-    if (version_ == 2) angle_ = units::degree;
-}
-
-std::optional<YamlNode> WindioFile::find(std::initializer_list<const char*> paths) const {
-    for (const char* path : paths)
-        if (std::optional<YamlNode> found = root_.find_path(path)) return found;
-    return std::nullopt;
-}
-
-YamlNode WindioFile::get(std::initializer_list<const char*> paths) const {
-    if (std::optional<YamlNode> found = find(paths)) return *std::move(found);
-    std::string all;
-    for (const char* path : paths) all += (all.empty() ? "" : " or ") + std::string(path);
-    // As far as the first one goes.
-    YamlNode at = root_;
-    std::string_view rest = *paths.begin();
-    while (std::optional<YamlNode> next = at.find(rest.substr(0, rest.find('.')))) {
-        at = *std::move(next);
-        rest.remove_prefix(std::min(rest.find('.'), rest.size() - 1) + 1);
-    }
-    at.fail(text("no ", all));
-}
-
-void WindioFile::note(const YamlNode& node, std::string value, std::string why) {
-    const std::string& path = node.path();
-    const auto is_there = [&](const FileNote& other) { return other.keyword == path && other.why == why; };
-    if (std::any_of(notes.begin(), notes.end(), is_there)) return;
-    notes.push_back({node.file(), node.line(), node.path(), std::move(value), std::move(why)});
-}
-
-namespace {
-
-// In a node that was read, what was not.
-void collect(const YamlNode& node, std::vector<FileNote>& out) {
-    if (node.is_list())
-        for (const YamlNode& item : node.items()) collect(item, out);
-    if (!node.is_map()) return;
-    for (const YamlNode& entry : node.entries())
-        if (entry.was_read())
-            collect(entry, out);
-        else if (!entry.path().ends_with(".name"))
-            out.push_back({entry.file(), entry.line(), entry.path(), "",
-                           "not used: no part of the structure as it is modelled", FileNote::Kind::unused});
-}
-
-}  // namespace
-
-std::vector<FileNote> WindioFile::unused() const {
-    std::vector<FileNote> out;
-    std::string others;
-    for (const YamlNode& entry : root_.entries())
-        if (!entry.was_read())
-            others += (others.empty() ? "" : ", ") + entry.path();
-        else if (entry.path() != "materials")  // of which others hold much
-            collect(entry, out);
-    if (!others.empty())
-        out.push_back({root_.file(), 0, others, "",
-                       "aerodynamics, control, costs, remarks: without meaning for the machine",
-                       FileNote::Kind::unused});
-    return out;
-}
 
 namespace {
 
@@ -113,44 +47,64 @@ Vec3 padded_vector(const YamlNode& node) {
     return out;
 }
 
-constexpr std::initializer_list<const char*> hub_mass{"components.hub.elastic_properties.mass",
-                                                      "components.hub.elastic_properties_mb.system_mass"};
-constexpr std::initializer_list<const char*> nacelle_mass{"components.drivetrain.elastic_properties.mass",
-                                                          "components.nacelle.elastic_properties_mb.system_mass"};
+using Paths = std::initializer_list<const char*>;
+using Part = MissingEntry::Part;
+
+// Version 2; version 1; and where files of either version have them as well.
+constexpr Paths hub_mass{"components.hub.elastic_properties.mass", "components.hub.elastic_properties_mb.system_mass"};
+constexpr Paths hub_inertia{"components.hub.elastic_properties.inertia",
+                            "components.hub.elastic_properties_mb.system_inertia"};
+constexpr Paths hub_place{"components.hub.elastic_properties.location",
+                          "components.hub.elastic_properties_mb.system_center_mass"};
+constexpr Paths nacelle_mass{"components.drivetrain.elastic_properties.mass",
+                             "components.nacelle.elastic_properties_mb.system_mass",
+                             "components.drivetrain.elastic_properties_mb.system_mass",
+                             "components.nacelle.drivetrain.elastic_properties_mb.system_mass"};
+constexpr Paths nacelle_inertia{"components.drivetrain.elastic_properties.inertia",
+                                "components.nacelle.elastic_properties_mb.system_inertia",
+                                "components.drivetrain.elastic_properties_mb.system_inertia",
+                                "components.nacelle.drivetrain.elastic_properties_mb.system_inertia"};
+constexpr Paths nacelle_inertia_about_top{"components.drivetrain.elastic_properties.inertia_tt",
+                                          "components.nacelle.elastic_properties_mb.system_inertia_tt",
+                                          "components.drivetrain.elastic_properties_mb.system_inertia_tt",
+                                          "components.nacelle.drivetrain.elastic_properties_mb.system_inertia_tt"};
+constexpr Paths nacelle_place{"components.drivetrain.elastic_properties.location",
+                              "components.nacelle.elastic_properties_mb.system_center_mass",
+                              "components.drivetrain.elastic_properties_mb.system_center_mass",
+                              "components.nacelle.drivetrain.elastic_properties_mb.system_center_mass"};
+constexpr Paths yaw_mass{"components.yaw.elastic_properties.mass", "components.nacelle.elastic_properties_mb.yaw_mass",
+                         "components.drivetrain.elastic_properties_mb.yaw_mass",
+                         "components.nacelle.drivetrain.elastic_properties_mb.yaw_mass"};
+constexpr Paths shaft_stiffness{"components.drivetrain.gearbox.elastic_properties.torsional_stiffness",
+                                "components.drivetrain.elastic_properties.spring_constant",
+                                "components.nacelle.elastic_properties_mb.spring_constant",
+                                "components.drivetrain.elastic_properties_mb.spring_constant"};
+constexpr Paths shaft_damping{"components.drivetrain.gearbox.elastic_properties.torsional_damping",
+                              "components.drivetrain.elastic_properties.damping_coefficient",
+                              "components.nacelle.elastic_properties_mb.damping_coefficient",
+                              "components.drivetrain.elastic_properties_mb.damping_coefficient"};
+constexpr Paths nacelle_component{"components.drivetrain", "components.nacelle"};
+constexpr Paths hub_height_above_tower{"components.drivetrain.outer_shape.distance_tt_hub",
+                                       "components.nacelle.drivetrain.distance_tt_hub"};
 
 class WindioReader {
 public:
     explicit WindioReader(YamlNode root) : file_(std::move(root)) {}
 
     TurbineFile read() {
-        refuse_incomplete();
         d_.name = file_.get({"name"}).word();
         const auto blades = file_.find({"assembly.number_of_blades"});
         d_.blades = blades ? blades->integer(1, 10) : 3;
         read_side();
-        try {
-            d_.tower.line = beam_line(windio_tower(file_));
-            out_.tower_foot = tower_heights().front();
-        } catch (const InputError& error) {
-            file_.root().fail(error.what());
-        }
-        d_.tower.damping = windio_tower_damping(file_);
-        const BeamTable blade = windio_blade(file_);
-        d_.blade.line = beam_line(blade);
-        d_.blade.damping = windio_blade_damping(file_);
-        d_.blade.pitch = rigid_joint;
+        read_tower();
+        read_blade();
         d_.yaw = {rigid_joint, rigid_joint};
         read_foundation();
         read_hub();
         read_nacelle();
         read_drive_train();
-        compare_sizes(blade.points.empty() ? blade.stations.back() : blade.points.back()(0));
-        if (const auto speed =  // of versions 2.1; 1; 1 and 2.0
-            file_.find({"control.rated_rotor_speed", "control.supervisory.maxOmega", "control.torque.VS_maxspd",
-                        "control.max_rotor_speed"})) {
-            out_.rotor_speed = d_.rotor_speed = not_negative(*speed) * file_.rotor_speed();
-            out_.rotor_speed_source = speed->path();
-        }
+        compare_sizes();
+        read_windio_operation(file_, has_rotor() ? diameter() / 2 : 0, out_);
         for (FileNote& note : file_.notes) out_.notes.push_back(std::move(note));
         for (FileNote& note : file_.unused()) out_.notes.push_back(std::move(note));
         admit_unusual(out_, file_.root().file());
@@ -158,25 +112,58 @@ public:
     }
 
 private:
-    // All that is missing at once: who supplies it wants to know all of it.
-    void refuse_incomplete() const {
-        const bool new_keys = file_.version() == 2;
-        std::string lacking;
-        const auto need = [&](const char* what, const char* remark, std::initializer_list<const char*> paths) {
-            if (file_.find(paths)) return;
-            lacking += text(lacking.empty() ? "" : "; ", what, " (", new_keys ? *paths.begin() : *(paths.end() - 1),
-                            remark, ")");
-        };
-        need("stiffness and inertia of the blade's sections",
-             ", with stiffness and inertia matrix: sections are not computed from layers",
-             {"components.blade.structure.elastic_properties", "components.blade.elastic_properties",
-              "components.blade.elastic_properties_mb", "components.blade.elastic_properties_mb.six_x_six"});
-        need("mass of the hub", "", hub_mass);
-        need("mass of nacelle and drive train", "", nacelle_mass);
-        if (!lacking.empty())
-            file_.root().fail(
-                text("the model lacks: ", lacking,
-                     "; remedy: a YAML file with these entries, read in addition (programs: --with FILE)"));
+    void lack(Part part, std::string what, Paths paths, std::string value) {
+        // The key of the file's own version.
+        const char* key = paths.begin()[file_.version() == 2 ? 0 : 1];
+        d_.missing.push_back({part, std::move(what), key, std::move(value)});
+    }
+    void lack_component(Part part, const char* what, const char* key) { d_.missing.push_back({part, what, key, {}}); }
+    // Where the component begins.
+    void note_missing(Paths component, const char* what, std::string why) {
+        out_.notes.push_back({file_.root().file(), file_.get(component).line(), what, "not there", std::move(why)});
+    }
+    void zero(Paths component, const char* what, const char* effect) {
+        note_missing(component, what, text("taken as zero: ", effect));
+    }
+    // One that no body can have is as good as none.
+    void check(Part part, const char* what, const RigidInertia& inertia, Paths paths) {
+        const auto given = file_.find(paths);
+        try {
+            inertia.check(what);
+        } catch (const InputError& error) {
+            if (!given) throw;
+            lack(part,
+                 text("inertia of the ", what, " that a body can have (that of line ", given->line(), ": ",
+                      error.what(), ")"),
+                 paths, "[JXX,JYY,JZZ]");
+        }
+    }
+
+    void read_tower() {
+        if (!file_.find({"components.tower"})) return lack_component(Part::tower, "the tower", "components.tower");
+        try {
+            d_.tower.line = beam_line(windio_tower(file_));
+            out_.tower_foot = tower_heights().front();
+        } catch (const InputError& error) {
+            file_.root().fail(error.what());
+        }
+        d_.tower.damping = windio_tower_damping(file_);
+    }
+    void read_blade() {
+        d_.blade.pitch = rigid_joint;
+        if (!file_.find({"components.blade"})) return lack_component(Part::blade, "the blades", "components.blade");
+        if (windio_has_sections(file_)) {
+            d_.blade.line = beam_line(windio_blade(file_));
+            d_.blade.damping = windio_blade_damping(file_);
+            return;
+        }
+        d_.blade.line.length = windio_blade_length(file_);
+        d_.missing.push_back({Part::blade,
+                              "stiffness and inertia matrices of the blade's sections, which are not computed from "
+                              "layers",
+                              file_.version() == 2 ? "components.blade.structure.elastic_properties"
+                                                   : "components.blade.elastic_properties_mb.six_x_six",
+                              {}});
     }
 
     void read_side() {
@@ -205,28 +192,38 @@ private:
             node.fail(text(node.number(), "; allowed: below an eighth of a turn (", file_.unit_of_angle(), ")"));
         return value;
     }
-    void missing(const char* entry, const char* why) {
-        out_.notes.push_back({file_.root().file(), 0, entry, "not there", why});
-    }
 
     void read_hub() {
+        if (!file_.find({"components.hub"})) return lack_component(Part::hub, "the hub", "components.hub");
         d_.hub.radius = positive(file_.get({"components.hub.diameter", "components.hub.outer_shape_bem.diameter"})) / 2;
         // Away from the tower positive there, of upwind and downwind rotors.
         d_.blade.cone =
             away_ * small_angle(file_.get({"components.hub.cone_angle", "components.hub.outer_shape_bem.cone_angle"}));
         RigidInertia hub;
-        hub.mass = not_negative(file_.get(hub_mass));
-        if (const auto J = file_.find(
-                {"components.hub.elastic_properties.inertia", "components.hub.elastic_properties_mb.system_inertia"}))
+        const auto mass = file_.find(hub_mass), J = file_.find(hub_inertia), place = file_.find(hub_place);
+        if (mass)
+            hub.mass = not_negative(*mass);
+        else
+            lack(Part::hub, "mass of the hub", hub_mass, "MASS_kg");
+        if (J)
             hub.J = tensor(*J);
-        if (const auto place = file_.find({"components.hub.elastic_properties.location",
-                                           "components.hub.elastic_properties_mb.system_center_mass"}))
+        else if (mass)
+            zero({"components.hub"}, "inertia of the hub", "about the shaft it is small beside that of the blades");
+        if (place)
             hub.com = padded_vector(*place);
+        else if (mass)
+            zero({"components.hub"}, "mass centre of the hub", "it is the rotor's centre");
         hub.reduced = true;
+        check(Part::hub, "hub", hub, hub_inertia);
         d_.hub.inertia = hub.in(Placement::rotation(beamdyn_axes()));  // x downwind along the shaft, z up
     }
 
+    bool has_nacelle() const { return file_.find(nacelle_component).has_value(); }
+
     void read_nacelle() {
+        if (!has_nacelle())
+            return lack_component(Part::nacelle, "nacelle and drive train",
+                                  file_.version() == 2 ? "components.drivetrain" : "components.nacelle");
         NacelleDescription& n = d_.nacelle;
         // The rotor's end of the shaft up.
         const double uptilt = small_angle(
@@ -234,33 +231,38 @@ private:
         const double overhang =
             file_.get({"components.drivetrain.outer_shape.overhang", "components.nacelle.drivetrain.overhang"})
                 .number();
-        const double height = file_
-                                  .get({"components.drivetrain.outer_shape.distance_tt_hub",
-                                        "components.nacelle.drivetrain.distance_tt_hub"})
-                                  .number();
+        const double height = file_.get(hub_height_above_tower).number();
         n.tilt = -away_ * uptilt;
         n.overhang = -away_ * overhang / std::cos(uptilt);
         n.shaft_height = height - overhang * std::tan(uptilt);
         n.tilt_bearing = rigid_joint;
-        RigidInertia& i = n.inertia;
-        i.mass = not_negative(file_.get(nacelle_mass));
-        if (const auto place = file_.find({"components.drivetrain.elastic_properties.location",
-                                           "components.nacelle.elastic_properties_mb.system_center_mass"}))
-            i.com = padded_vector(*place);
-        const auto own = file_.find({"components.drivetrain.elastic_properties.inertia",
-                                     "components.nacelle.elastic_properties_mb.system_inertia"});
-        if (own)
-            i.J = tensor(*own);
-        else if (const auto about_top = file_.find({"components.nacelle.elastic_properties_mb.system_inertia_tt"}))
-            i.J = tensor(*about_top) - i.mass * (i.com.squaredNorm() * Mat3::Identity() - i.com * i.com.transpose());
-        i.reduced = true;
-        if (const auto yaw = file_.find(
-                {"components.yaw.elastic_properties.mass", "components.nacelle.elastic_properties_mb.yaw_mass"})) {
+        read_nacelle_inertia(n.inertia);
+        if (const auto yaw = file_.find(yaw_mass)) {
             RigidInertia bearing;
             bearing.mass = not_negative(*yaw);
-            i = i + bearing;
+            n.inertia = n.inertia + bearing;
             file_.note(*yaw, text(bearing.mass), "is part of the nacelle here, on the yaw axis at the tower top");
         }
+    }
+    void read_nacelle_inertia(RigidInertia& i) {
+        const auto mass = file_.find(nacelle_mass), place = file_.find(nacelle_place),
+                   own = file_.find(nacelle_inertia), about_top = file_.find(nacelle_inertia_about_top);
+        if (mass)
+            i.mass = not_negative(*mass);
+        else
+            lack(Part::nacelle, "mass of nacelle and drive train", nacelle_mass, "MASS_kg");
+        if (place)
+            i.com = padded_vector(*place);
+        else if (mass)
+            zero(nacelle_component, "mass centre of the nacelle", "it is the tower top");
+        if (own)
+            i.J = tensor(*own);
+        else if (about_top && mass)
+            i.J = tensor(*about_top) - i.mass * (i.com.squaredNorm() * Mat3::Identity() - i.com * i.com.transpose());
+        else if (mass)
+            zero(nacelle_component, "inertia of the nacelle", "about the tower's axis the rotor has most of it");
+        i.reduced = true;
+        check(Part::nacelle, "nacelle", i, own ? nacelle_inertia : nacelle_inertia_about_top);
     }
 
     // Of the tower's reference axis, above the ground or the still water.
@@ -272,12 +274,11 @@ private:
             .numbers();
     }
 
+    bool has_rotor() const { return file_.find({"components.hub"}) && file_.find({"components.blade"}); }
+    double diameter() { return 2 * (d_.hub.radius + windio_blade_length(file_)) * std::cos(d_.blade.cone); }
     // Some files hold the axes of another machine, which WISDEM stretches to the diameter of the rotor and the height
     // of the hub. Here the axes count.
-    void compare_sizes(double blade) {
-        const double diameter = 2 * (d_.hub.radius + blade) * std::cos(d_.blade.cone);
-        const YamlNode above = file_.get(
-            {"components.drivetrain.outer_shape.distance_tt_hub", "components.nacelle.drivetrain.distance_tt_hub"});
+    void compare_sizes() {
         const auto compare = [&](const char* path, double found, const char* what) {
             constexpr double close = 0.02;
             const auto given = file_.find({path});
@@ -286,8 +287,10 @@ private:
                        text("the axes in the file are taken as they are and make ", what, " of ", found,
                             " m; other programs stretch them to this"));
         };
-        compare("assembly.rotor_diameter", diameter, "a diameter");
-        compare("assembly.hub_height", tower_heights().back() + above.number(), "a height");
+        if (has_rotor()) compare("assembly.rotor_diameter", diameter(), "a diameter");
+        if (file_.find({"components.tower"}) && has_nacelle())
+            compare("assembly.hub_height", tower_heights().back() + file_.get(hub_height_above_tower).number(),
+                    "a height");
     }
 
     void read_drive_train() {
@@ -296,23 +299,23 @@ private:
             file_.find({"components.drivetrain.gearbox.gear_ratio", "components.nacelle.drivetrain.gear_ratio"});
         t.gear_ratio = ratio ? positive(*ratio) : 1;
         t.high_speed_shaft = t.main_shaft = rigid_joint;
-        if (const auto k = file_.find({"components.drivetrain.gearbox.elastic_properties.torsional_stiffness",
-                                       "components.drivetrain.elastic_properties.spring_constant",
-                                       "components.nacelle.elastic_properties_mb.spring_constant"})) {
-            t.main_shaft = {positive(*k)};
-            if (const auto c = file_.find({"components.drivetrain.gearbox.elastic_properties.torsional_damping",
-                                           "components.drivetrain.elastic_properties.damping_coefficient",
-                                           "components.nacelle.elastic_properties_mb.damping_coefficient"}))
-                t.main_shaft.damping = not_negative(*c);
-        } else {
-            missing("torsional stiffness of the drive train", "the drive train is rigid");
-        }
+        if (!has_nacelle()) return;
+        const auto k = file_.find(shaft_stiffness), c = file_.find(shaft_damping);
+        if (k && not_negative(*k) > 0)
+            t.main_shaft = {k->number(), c ? not_negative(*c) : 0};
+        else
+            note_missing(nacelle_component, "torsional stiffness of the drive train", "the drive train is rigid");
         const auto J = file_.find({"components.drivetrain.generator.elastic_properties.inertia",
-                                   "components.nacelle.generator.elastic_properties_mb.rotor_inertia"});
+                                   "components.nacelle.generator.elastic_properties_mb.rotor_inertia",
+                                   "components.drivetrain.generator.elastic_properties_mb.rotor_inertia"});
         if (J)
             t.generator_inertia = tensor(*J)(0, 0);
+        else if (t.main_shaft.is_rigid())
+            zero(nacelle_component, "inertia of the generator",
+                 "behind a gearbox it may be a tenth of the rotor's: --generator-inertia");
         else
-            missing("inertia of the generator", "zero: to be set before the machine is assembled");
+            note_missing(nacelle_component, "inertia of the generator",
+                         "zero: to be set before the machine is assembled (--generator-inertia)");
     }
 
     WindioFile file_;

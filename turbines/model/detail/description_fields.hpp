@@ -34,6 +34,20 @@ inline const char* name_of(Bearing::Hold hold) {
     return "";
 }
 
+inline const char* name_of(MissingEntry::Part part) {
+    switch (part) {
+        case MissingEntry::Part::tower:
+            return "tower";
+        case MissingEntry::Part::nacelle:
+            return "nacelle";
+        case MissingEntry::Part::hub:
+            return "hub";
+        case MissingEntry::Part::blade:
+            return "blade";
+    }
+    return "";
+}
+
 inline const char* name_of(CoordinateRole role) {
     return role == CoordinateRole::free ? "free" : "driven";
 }
@@ -149,6 +163,17 @@ void description_fields(Archive& archive, Description& d) {
         archive.group_if(!d.missing_foundation.name.empty(), "missing_foundation", [&] {
             archive.word("name", d.missing_foundation.name);
             archive.word("where", d.missing_foundation.where);
+        });
+    });
+    archive.since(3, [&] {
+        using enum MissingEntry::Part;
+        archive.group_if(!d.missing.empty(), "missing", [&] {
+            archive.counted_groups("entries", d.missing, [&](auto& one) {
+                archive.optional_choice("part", one.part, {tower, nacelle, hub, blade});
+                archive.word("what", one.what);
+                archive.word("key", one.key);
+                archive.optional_word("value", one.value);
+            });
         });
     });
 }

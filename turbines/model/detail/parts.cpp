@@ -3,7 +3,22 @@
 #include "mbs/base/error.hpp"
 #include "turbines/model/detail/assembler.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace cardan::turbines {
+
+namespace {
+
+// What a part lacks of itself.
+std::vector<MissingEntry> missing_of(const TurbineDescription& d, MissingEntry::Part part) {
+    std::vector<MissingEntry> own;
+    std::ranges::copy_if(d.missing, std::back_inserter(own),
+                         [part](const MissingEntry& one) { return one.part == part; });
+    return own;
+}
+
+}  // namespace
 
 TurbineDescription blade_alone(const TurbineDescription& d, int number) {
     const BladeDescription* blade = number < 1 || number > d.blades ? nullptr : d.blade_at(number);
@@ -20,6 +35,7 @@ TurbineDescription blade_alone(const TurbineDescription& d, int number) {
     alone.blade.pitch = rigid_joint;
     alone.blade.linkage.reset();
     alone.unusual = d.unusual;
+    alone.missing = missing_of(d, MissingEntry::Part::blade);
     return alone;
 }
 
@@ -31,6 +47,7 @@ TurbineDescription tower_alone(const TurbineDescription& d) {
     alone.tower = d.tower;
     alone.yaw.rotation = alone.drive_train.main_shaft = rigid_joint;
     alone.unusual = d.unusual;
+    alone.missing = missing_of(d, MissingEntry::Part::tower);
     return alone;
 }
 

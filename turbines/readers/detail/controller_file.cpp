@@ -78,23 +78,25 @@ ControllerGains gains_of(const ControllerFile& file) {
     return out;
 }
 
-std::vector<PitchAt> minimum_pitch(const ControllerFile& file) {
-    const auto of = [&](const char* keyword) { return file.number(keyword).value_or(0); };
-    const double ratio = of("VS_TSRopt"), radius = of("WE_BladeRadius"), gears = of("WE_GearboxRatio");
-    const std::vector<double> winds = file.numbers("PS_WindSpeeds"), pitch = file.numbers("PS_BldPitchMin");
-    if (of("PS_Mode") == 0 || !(ratio > 0) || !(radius > 0) || !(gears > 0) || winds.size() != pitch.size()) return {};
-    const double least = of("VS_MinOMSpd") / gears, most = of("PC_RefSpd") / gears;
+std::vector<PitchAt> pitch_over_speed(const std::vector<PitchAtWind>& winds, double tip_speed_ratio, double radius,
+                                      double least, double most) {
     std::vector<PitchAt> schedule;
-    for (std::size_t i = 0; i < winds.size(); ++i) {
-        if (i > 0 && !(winds[i] > winds[i - 1])) return {};
-        const double speed = std::clamp(ratio * winds[i] / radius, std::min(least, most), most);
+    for (const PitchAtWind& one : winds) {
+        const double speed = std::clamp(tip_speed_ratio * one.wind / radius, std::min(least, most), most);
         if (!schedule.empty() && speed == schedule.back().rotor_speed) {
             if (speed == most) break;
             schedule.pop_back();
         }
-        schedule.push_back({speed, pitch[i]});
+        schedule.push_back({speed, one.pitch});
     }
     return schedule;
+}
+
+std::vector<PitchAt> minimum_pitch(const ControllerFile& file) {
+    const auto of = [&](const char* keyword) { return file.number(keyword).value_or(0); };
+    const double ratio = of("VS_TSRopt"), radius = of("WE_BladeRadius"), gears = of("WE_GearboxRatio");
+    if (!(ratio > 0) || !(radius > 0) || !(gears > 0)) return {};
+    return pitch_over_speed(least_pitch(file), ratio, radius, of("VS_MinOMSpd") / gears, of("PC_RefSpd") / gears);
 }
 
 }  // namespace cardan::turbines

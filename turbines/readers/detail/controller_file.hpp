@@ -24,10 +24,16 @@ private:
     std::string text_;
 };
 
-/// The least pitch over rotor speed (PS_BldPitchMin over PS_WindSpeeds), which is where the blades stand below rated
-/// power. The rotor turns at the tip speed ratio VS_TSRopt, not slower than VS_MinOMSpd and not faster than PC_RefSpd.
-/// Of winds with the same speed of the rotor the one next to those in between counts. Empty: the file has no such
-/// schedule (PS_Mode), or not all that it takes.
+/// Where the blades stand below rated power, over the rotor speed: at their least pitch for the wind at which a rotor
+/// of this radius turns so fast at the tip speed ratio, not slower than `least` and not faster than `most`, rad/s. Of
+/// winds with the same speed of the rotor the one next to those in between counts.
+/// @param winds  ascending
+std::vector<PitchAt> pitch_over_speed(const std::vector<PitchAtWind>& winds, double tip_speed_ratio, double radius,
+                                      double least, double most);
+
+/// The least pitch over rotor speed (PS_BldPitchMin over PS_WindSpeeds), by pitch_over_speed(). The
+/// rotor turns at the tip speed ratio VS_TSRopt, not slower than VS_MinOMSpd and not faster than PC_RefSpd. Empty: the
+/// file has no such schedule (PS_Mode), or not all that it takes.
 std::vector<PitchAt> minimum_pitch(const ControllerFile& file);
 
 /// VS_RtPwr over VS_GenEff, VS_MinOMSpd, VS_TSRopt, PS_BldPitchMin over PS_WindSpeeds.

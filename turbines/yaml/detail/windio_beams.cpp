@@ -121,9 +121,28 @@ void make_rigid(Matrices& sections, WindioFile& file, const YamlNode& stiffness)
     if (!rigid.empty()) file.note(stiffness, "", text("rigid, since no stiffness or no inertia is given: ", rigid));
 }
 
+// Public files that older versions of WISDEM wrote have the edgewise inertia twice, the second time in the place of the
+// product, and none flapwise. The polar inertia, the sum of both, is right.
+void restore_flap_inertia(MatrixCurve& inertia, WindioFile& file, const YamlNode& node) {
+    const auto everywhere = [&](const auto& is_so) { return std::ranges::all_of(inertia.values, is_so); };
+    const bool no_flap =
+        everywhere([](const Mat6& m) { return m(0, 0) > 0 && m(4, 4) == 0 && m(3, 3) > 0 && m(5, 5) > m(3, 3); });
+    const bool twice = everywhere([](const Mat6& m) { return m(3, 4) == m(3, 3); });
+    if (!no_flap || !(twice || everywhere([](const Mat6& m) { return m(3, 4) == 0; }))) return;
+    for (Mat6& m : inertia.values) {
+        m(4, 4) = m(5, 5) - m(3, 3);
+        m(3, 4) = m(4, 3) = m(0, 5) * m(1, 5) / m(0, 0);  // - mass x y: none about the mass centre
+    }
+    file.note(
+        node, "",
+        text("the flapwise inertia is zero", twice ? ", and the edgewise stands in the place of the product" : "",
+             ": it is taken as the polar less the edgewise inertia, and the product about the mass centre as zero"));
+}
+
 Matrices read_matrices(WindioFile& file, const YamlNode& stiffness, const YamlNode& inertia) {
     const MatrixCurve K = stiffness.find("values") ? triangles(stiffness) : named_stiffness(stiffness);
-    const MatrixCurve M = inertia.find("values") ? triangles(inertia) : named_inertia(inertia);
+    MatrixCurve M = inertia.find("values") ? triangles(inertia) : named_inertia(inertia);
+    restore_flap_inertia(M, file, inertia);
     Matrices out;
     out.eta = united(K.grid, M.grid);
     for (double at : out.eta) out.values.push_back({K.at(at), M.at(at)});
@@ -160,12 +179,34 @@ std::vector<Vec3> axis_points(const YamlNode& node) {
     return points;
 }
 
+YamlNode blade_axis(const WindioFile& file) {
+    return file.get({"components.blade.reference_axis",
+                     "components.blade.elastic_properties_mb.six_x_six.reference_axis",
+                     "components.blade.outer_shape_bem.reference_axis"});
+}
+
+std::optional<YamlNode> blade_matrices(const WindioFile& file) {
+    return file.find({"components.blade.structure.elastic_properties", "components.blade.elastic_properties",
+                      "components.blade.elastic_properties_mb.six_x_six", "components.blade.elastic_properties_mb"});
+}
+
 }  // namespace
 
+bool windio_has_sections(const WindioFile& file) {
+    const auto elastic = blade_matrices(file);
+    return elastic && (elastic->find("stiffness_matrix") || elastic->find("stiff_matrix")) &&
+           elastic->find("inertia_matrix");
+}
+
+double windio_blade_length(const WindioFile& file) {
+    const YamlNode z = blade_axis(file)["z"];
+    const double length = z["values"].numbers().back() - z["values"].numbers().front();
+    if (!(length > 0)) z.fail(text("a length of ", length, " m; allowed: > 0"));
+    return length;
+}
+
 BeamTable windio_blade(WindioFile& file) {
-    const YamlNode axis =
-        file.get({"components.blade.reference_axis", "components.blade.elastic_properties_mb.six_x_six.reference_axis",
-                  "components.blade.outer_shape_bem.reference_axis"});
+    const YamlNode axis = blade_axis(file);
     MatrixBlade blade;
     blade.points = axis_points(axis);
     const Vec3 root = blade.points.front();
@@ -180,9 +221,7 @@ BeamTable windio_blade(WindioFile& file) {
             twist.fail(text("twist of ", value, "; allowed: half a turn at most (", file.unit_of_angle(), ")"));
         blade.twist.push_back(value * file.angle());
     }
-    const YamlNode elastic =
-        file.get({"components.blade.structure.elastic_properties", "components.blade.elastic_properties",
-                  "components.blade.elastic_properties_mb.six_x_six", "components.blade.elastic_properties_mb"});
+    const YamlNode elastic = *blade_matrices(file);
     const std::optional<YamlNode> named = elastic.find("stiffness_matrix");
     Matrices sections = read_matrices(file, named ? *named : elastic["stiff_matrix"], elastic["inertia_matrix"]);
     blade.eta = std::move(sections.eta);
