@@ -8,10 +8,10 @@
 
 namespace cardan::turbines {
 
-/// Reads the main file of a model (.fst) with the structural files it names, or an ElastoDyn file alone (recognised by
-/// its contents). ElastoDyn (CompElast = 1) or ElastoDyn with BeamDyn blades (2), those with files of their own in
-/// `own_blades`; from ServoDyn, if it is enabled and present, stiffness and damping of the yaw drive and the rated
-/// speed (ServoDyn::rated_generator_speed), which goes before the initial one of ElastoDyn.
+/// Reads the main file of a model (.fst) with the structural files it names, that of FAST 7 likewise, or an ElastoDyn
+/// file alone (recognised by its contents). ElastoDyn (CompElast = 1) or ElastoDyn with BeamDyn blades (2), those with
+/// files of their own in `own_blades`; from ServoDyn, if it is enabled and present, stiffness and damping of the yaw
+/// drive and the rated speed (ServoDyn::rated_generator_speed), which goes before the initial one of ElastoDyn.
 /// @throws ParseError, FileError, InputError
 TurbineFile read_openfast(const std::filesystem::path& path);
 

@@ -141,6 +141,7 @@ void machine_fields(Archive& archive, AnyMachine& m, Air& air) {
     archive.group_if(true, "site", [&] {
         archive.optional_number("density", m.site.density);
         archive.optional_number("viscosity", m.site.viscosity);
+        archive.optional_number("gravity", m.site.gravity);
         archive.optional_number("tower_foot", m.site.tower_foot);
     });
     archive.group_if(true, "operation", [&] { operation_fields(archive, m.operation); });
