@@ -1,8 +1,10 @@
+#include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/urdf/detail/reading.hpp"
 #include "mbs/urdf/urdf.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <urdf_model/joint.h>
 #include <urdf_model/link.h>
@@ -43,15 +45,37 @@ Mat3 frame_with_z(const Vec3& n) {
     return R;
 }
 
-RigidInertia rigid_inertia(const urdf::Inertial& from, const std::string& where) {
+// Half a unit in the third digit of a number.
+double rounding(double value) {
+    return value == 0 ? 0 : 0.5 * std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
+}
+
+// Principal moments A <= B <= C have A >= 0 and A + B >= C. Entries rounded to three digits, each by as much as dJ,
+// change a moment by up to |dJ| and C - A - B = 2 C - tr J by up to 2 |dJ| + tr dJ [Weyl's inequality]: so far A
+// becomes 0 and C becomes A + B. Empty: nothing had to change.
+std::string mend(Mat3& J) {
+    if (!J.allFinite()) return {};
+    const Mat3 dJ = J.unaryExpr(&rounding);
+    const Eigen::SelfAdjointEigenSolver<Mat3> axes(J);
+    Vec3 principal = axes.eigenvalues();
+    const double negative = std::max(0.0, -principal(0)),
+                 excess = principal(2) - std::max(0.0, principal(0)) - principal(1), still_right = 1e-9 * J.norm();
+    if (negative > dJ.norm() || excess > 2 * dJ.norm() + dJ.trace() || std::max(negative, excess) <= still_right)
+        return {};
+    principal(0) = std::max(0.0, principal(0));
+    principal(2) = std::min(principal(2), principal(0) + principal(1));
+    const Mat3& R = axes.eigenvectors();
+    J = R * principal.asDiagonal() * R.transpose();
+    return text("principal moments of inertia ", axes.eigenvalues().transpose(), " were made ", principal.transpose(),
+                " kg m^2: the file has them rounded, and a body has A + B >= C");
+}
+
+RigidInertia rigid_inertia(const urdf::Inertial& from) {
     RigidInertia inertia;
     inertia.mass = from.mass;
     inertia.J << from.ixx, from.ixy, from.ixz,  //
         from.ixy, from.iyy, from.iyz,           //
         from.ixz, from.iyz, from.izz;
-    inertia.check(where);
-    inertia = inertia.in(placement(from.origin));
-    inertia.J = (0.5 * (inertia.J + inertia.J.transpose())).eval();
     return inertia;
 }
 
@@ -107,10 +131,17 @@ private:
         weld(link.name);
     }
 
-    RigidInertia inertia_of(const std::string& link) const {
+    RigidInertia inertia_of(const std::string& link) {
         const auto& inertial = source_.getLink(link)->inertial;
         if (!inertial) return {};
-        return rigid_inertia(*inertial, text(outline_.at(line_of_link_.at(link)), "link '", link, "'"));
+        const int line = line_of_link_.at(link);
+        RigidInertia inertia = rigid_inertia(*inertial);
+        if (const std::string change = mend(inertia.J); !change.empty())
+            note(line, text("link '", link, "': ", change));
+        inertia.check(text(outline_.at(line), "link '", link, "'"));
+        inertia = inertia.in(placement(inertial->origin));
+        inertia.J = (0.5 * (inertia.J + inertia.J.transpose())).eval();
+        return inertia;
     }
 
     void weld(const std::string& link) {
@@ -270,9 +301,12 @@ private:
             const BodySpec& body = out_.tree.bodies()[k].spec;
             if (carries[k] || !body.inertia.is_massless()) continue;
             const JointEntry& joint = *joint_of_body_[k];
+            const char* const mimic =
+                source_.getJoint(joint.name)->mimic ? ": that it mimics another joint gives its coordinate none" : "";
             throw InputError(text(outline_.at(line_of_link_.at(joint.child)), "link '", joint.child,
                                   "' ends a branch and is moved by joint '", joint.name,
-                                  "', but neither it nor a link fixed to it has an inertia; give it an <inertial>"));
+                                  "', but neither it nor a link fixed to it has an inertia; give it an <inertial>",
+                                  mimic));
         }
     }
 

@@ -36,9 +36,10 @@ void check(const CampbellSettings& s) {
 
 std::vector<double> usual_speeds(const Machine& machine, const Report& report) {
     const double rated = machine.operation.rotor_speed * units::to_rpm;
-    if (!(rated > 0))
-        throw InputError("CampbellSettings::rotor_speeds", "value", "none, and the model names no rotor speed",
-                         "rising from >= 0, rad/s");
+    if (!(rated > 0)) {
+        report_remark(report, {Remark::Kind::taken, "rotor speed: 0, the model names none"});
+        return {0};
+    }
     const std::string& source = machine.operation.rotor_speed_source;
     report_remark(report,
                   {Remark::Kind::taken, text("rotor speeds: 0 to ", rounded(1.2 * rated), " rpm, 1.2 times ",

@@ -107,7 +107,7 @@ AssemblyOptions assembly_options(const Machine& machine, const MachineSettings& 
     o.tower_elements = settings.tower_elements;
     o.spin = CoordinateRole::free;
     o.pitch = settings.pitch.value_or(machine.operation.pitch);
-    if (gravity) o.gravity = {0, 0, -units::standard_gravity};
+    if (gravity) o.gravity = {0, 0, -machine.site.gravity};
     o.structural_damping = o.joint_damping = settings.damping;
     return o;
 }

@@ -174,7 +174,7 @@ struct SimulationSettings {
     int max_order = 2;                      ///< of Method::bdf, beyond which weakly damped modes may grow
     solvers::Method method = solvers::Method::dirk;
     SimulationStart start = SimulationStart::steady;
-    bool gravity = true;                   ///< unless the model has none
+    bool gravity = true;
     Report report = {};                    ///< receives the remarks as they arise: Simulation::remarks() has all
     std::function<bool()> cancelled = {};  ///< asked before every step; true: the run ends
 };

@@ -48,6 +48,7 @@ Machine machine_of(TurbineFile file) {
     machine.description = std::move(file.description);
     machine.yaw_drive = file.yaw_drive;
     machine.site.tower_foot = file.tower_foot;
+    machine.site.gravity = file.gravity;
     machine.operation = {.rotor_speed = file.rotor_speed,
                          .rotor_speed_source = std::move(file.rotor_speed_source),
                          .pitch = file.pitch,

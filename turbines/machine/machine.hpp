@@ -5,6 +5,7 @@
 #include "elements/aerodynamics/rigid_rotor.hpp"
 #include "elements/aerodynamics/tower.hpp"
 #include "elements/aerodynamics/unsteady_profile.hpp"
+#include "mbs/base/units.hpp"
 #include "turbines/operation/wind_operation.hpp"
 #include "turbines/readers/turbine_file.hpp"
 
@@ -35,8 +36,9 @@ struct Aerodynamics {
 
 /// Where a machine stands, as its model says.
 struct Site {
-    double density = 1.225;                 ///< of the air, kg/m^3, where a file of airfoils says "default"
-    double viscosity = standard_viscosity;  ///< likewise, kinematic, m^2/s
+    double density = 1.225;                    ///< of the air, kg/m^3, where a file of airfoils says "default"
+    double viscosity = standard_viscosity;     ///< likewise, kinematic, m^2/s
+    double gravity = units::standard_gravity;  ///< m/s^2, downward, in analyses with gravity
     /// Of the tower's foot above the ground or the still water, m, as the model counts heights; none: as the machine
     /// stands.
     std::optional<double> tower_foot = std::nullopt;
@@ -49,7 +51,7 @@ struct MachineOperation {
     double pitch = 0;                          ///< of the blades, leading edge upwind, rad
     std::string pitch_source = {};             ///< empty: the pitch is not given
     std::vector<PitchAt> pitch_schedule = {};  ///< over the rotor speed, up to the rated one
-    double rated_power = 0;                    ///< of the rotor, W: that of the generator over its efficiency
+    double rated_power = 0;                    ///< of the rotor, W: that on the generator's shaft
     double min_speed = 0;                      ///< of the rotor, rad/s
     double tip_speed_ratio = 0;
     std::vector<PitchAtWind> min_pitch = {};

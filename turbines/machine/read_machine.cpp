@@ -62,8 +62,9 @@ std::optional<Aerodynamics> openfast_air(const std::filesystem::path& path, Mach
     Site& site = machine.site;
     site.density = main.number_or_default("AirDens", site.density);
     site.viscosity = main.number_or_default("KinVisc", site.viscosity);
-    if (!main.has("AeroFile")) return std::nullopt;
-    return air_of(read_aerodyn(main.path("AeroFile"), machine.description.hub.radius, site.density, site.viscosity));
+    const char* const keyword = main.has("AeroFile") ? "AeroFile" : "ADFile";  // of FAST 7
+    if (!main.has(keyword)) return std::nullopt;
+    return air_of(read_aerodyn(main.path(keyword), machine.description.hub.radius, site.density, site.viscosity));
 }
 
 Machine read_file(const std::filesystem::path& path, const std::vector<ModelAddition>& additions) {

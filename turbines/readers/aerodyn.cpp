@@ -3,6 +3,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/readers/detail/aerodyn14.hpp"
 #include "turbines/readers/detail/aerodyn_polars.hpp"
 #include "turbines/readers/openfast_file.hpp"
 
@@ -207,6 +208,7 @@ const std::vector<KeywordGroup>& ignored_by_aerodyn() {
 
 AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density, double viscosity) {
     OpenFastFile file = OpenFastFile::read(path);
+    if (is_aerodyn14(file)) return read_aerodyn14(file, density, viscosity);
     if (!file.has("NumAFfiles"))
         throw ParseError(path.string(), 1, 0, "not a file of AeroDyn 15: no line with the keyword NumAFfiles");
     AeroDynFile out;

@@ -1,5 +1,5 @@
 /// @file
-/// Aerodynamics from the input files of OpenFAST: AeroDyn 15 with blades and polars.
+/// Aerodynamics from the input files of OpenFAST: AeroDyn 15, or 12 to 14, with blades and polars.
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
@@ -32,12 +32,13 @@ struct AeroDynFile {
 /// (AFTabMod 2, KinVisc), drag of tower and nacelle, flow around the tower and its wake, data of unsteady profiles for
 /// four states (UA_Mod 4), of the first table of each polar; what they leave out is found as AeroDyn does
 /// (attached_flow()). Noted: other unsteady profiles, unsteady data that do not fit their polar, dynamic wake, free
-/// vortices, polars over UserProp (AFTabMod 3: the first table of each is used), blades that differ.
+/// vortices, polars over UserProp (AFTabMod 3: the first table of each is used), blades that
+/// differ. Polars that do not reach around the circle are taken with a note (AeroDyn holds the values of their ends).
+/// A main file of AeroDyn 12 to 14 has the blade in it; its polars lag with the flow that attached_flow() finds.
 /// @param hub_radius  places of the sections are given from the blade's root, m
 /// @param density     where the file says "default", kg/m^3
 /// @param viscosity   likewise, kinematic, m^2/s
-/// @throws ParseError, FileError; ParseError with file and line also for polars that are not sorted or do not reach
-/// around the circle
+/// @throws ParseError, FileError; ParseError with file and line also for polars that are not sorted
 AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density = 1.225,
                          double viscosity = standard_viscosity);
 

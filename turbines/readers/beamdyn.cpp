@@ -14,9 +14,10 @@ MatrixBlade key_points(OpenFastFile& file) {
     file.pass_over("kp_total", static_cast<std::size_t>(members));  // numbers of key points
     if (members > 1) file.note("member_total", "one smooth line goes through all key points here");
     if (count < 4) file.note("kp_total", "so few key points are joined by straight pieces here");
-    const OpenFastTable t = file.table("kp_xr", static_cast<std::size_t>(count));
-    const auto &x = t.column("kp_xr"), &y = t.column("kp_yr"), &z = t.column("kp_zr"),
-               &twist = t.column("initial_twist");
+    // By their order: the names have changed.
+    const OpenFastTable t = file.table("kp_x*", static_cast<std::size_t>(count));
+    if (t.columns.size() < 4) throw ParseError(t.file, t.line, 0, "columns x, y, z and twist of key points expected");
+    const auto &x = t.columns[0], &y = t.columns[1], &z = t.columns[2], &twist = t.columns[3];
     MatrixBlade blade;
     for (std::size_t i = 0; i < t.rows(); ++i) {
         blade.points.emplace_back(x[i], y[i], z[i]);
@@ -28,8 +29,9 @@ MatrixBlade key_points(OpenFastFile& file) {
                 t.fail(0, "first key point; allowed: the blade root (0, 0, 0)");
             blade.points[0].setZero();
         }
-        if (i > 0 && !(z[i] > z[i - 1])) t.fail(i, text("kp_zr = ", z[i], " after ", z[i - 1], "; allowed: larger"));
-        if (std::abs(twist[i]) > 180) t.fail(i, text("initial_twist = ", twist[i], "; allowed: -180 ... 180 degrees"));
+        if (i > 0 && !(z[i] > z[i - 1]))
+            t.fail(i, text(t.names[2], " = ", z[i], " after ", z[i - 1], "; allowed: larger"));
+        if (std::abs(twist[i]) > 180) t.fail(i, text(t.names[3], " = ", twist[i], "; allowed: -180 ... 180 degrees"));
         blade.twist.push_back(twist[i] * units::degree);
     }
     return blade;
@@ -43,9 +45,7 @@ void read_stations(OpenFastFile& file, MatrixBlade& out) {
         const int line = rows.empty() ? 1 : rows[std::min(next, rows.size() - 1)].line;
         if (next >= rows.size())
             throw ParseError(file.name(), line, 0, text(what, ": no further row of numbers after this line"));
-        if (rows[next].values.size() != size)
-            throw ParseError(file.name(), line, 0,
-                             text(what, ": ", size, " number(s) expected, found ", rows[next].values.size()));
+        file.require(rows[next], size, what);
         return rows[next++];
     };
     const auto matrix = [&](const std::string& what) {
@@ -59,6 +59,8 @@ void read_stations(OpenFastFile& file, MatrixBlade& out) {
     for (int i = 0; i < count; ++i) {
         const std::string where = text("station ", i + 1, " of ", count);
         const OpenFastFile::Row& place = row(1, where + ", place");
+        if (place.values.size() >= 6)
+            throw ParseError(file.name(), place.line, 0, text(where, ", place: 1 number expected, found a row of 6"));
         const double eta = place.values[0];
         const bool last = i + 1 == count;
         if ((i == 0 && eta != 0) || (last && std::abs(eta - 1) > 1e-9) || (i > 0 && !(eta > out.eta.back())))
@@ -75,7 +77,7 @@ void read_stations(OpenFastFile& file, MatrixBlade& out) {
         }
         out.matrices.push_back(m);
     }
-    if (next < rows.size())
+    if (next < rows.size() && !rows[next].values.empty())
         throw ParseError(file.name(), rows[next].line, 0,
                          text("more numbers after the ", count, " stations announced"));
 }
@@ -86,9 +88,10 @@ BeamDamping damping(OpenFastFile& file) {
     if (type == 0) return {};
     if (type == 1) {
         const std::vector<OpenFastFile::Row> rows = file.rows_below("mu1");
-        if (rows.size() != 1 || rows[0].values.size() != 6)
-            file.fail("damp_type", "one row of six numbers expected below mu1 ... mu6");
-        const std::vector<double>& mu = rows[0].values;  // shear x, y, extension, bending about x, y, torsion
+        if (rows.empty()) file.fail("damp_type", "one row of six numbers expected below mu1 ... mu6");
+        file.require(rows[0], 6, "mu1 ... mu6");
+        const std::vector<double> mu(rows[0].values.begin(),
+                                     rows[0].values.begin() + 6);  // shear x, y, extension, bending about x, y, torsion
         for (double value : mu)
             if (value < 0) throw ParseError(file.name(), rows[0].line, 0, text("mu = ", value, "; allowed: >= 0"));
         BeamDamping d;

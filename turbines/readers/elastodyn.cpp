@@ -7,10 +7,11 @@ namespace cardan::turbines {
 
 namespace {
 
-const std::vector<KeywordGroup>& ignored_by_elastodyn() {
-    static const std::vector<KeywordGroup> all{
+// The main file of FAST 7 has the entries of ServoDyn as well.
+std::vector<KeywordGroup> ignored_by_elastodyn(bool fast7) {
+    std::vector<KeywordGroup> all{
         {{"Echo",    "Method",   "DT",        "BldNodes", "TwrNodes",  "SumPrint",  "OutFile",  "TabDelim",
-          "OutFmt",  "TStart",   "DecFact",   "NTwGages", "TwrGagNd",  "NBlGages",  "BldGagNd", "OutList",
+          "OutFmt",  "TStart",   "DecFact",   "NTwGages", "TwrGagNd",  "NBlGages",  "BldGagNd", "OutList*",
           "BldNd_*", "CompAero", "CompNoise", "TMax",     "AbortMode", "ADAMSPrep", "AnalMode", "NumCrctn"},
          "output and numerical settings: without meaning for the machine"},
         {{"ShftGagL", "NcIMU*", "AzimB1Up"}, "places of sensors: without effect on the motion"},
@@ -21,6 +22,7 @@ const std::vector<KeywordGroup>& ignored_by_elastodyn() {
         {{"OoPDefl", "IPDefl", "TTDsp*"}, "initial conditions: those of a simulation are given to it here"},
         {{"PreCone*", "TipMass*", "BldFile*", "BlPitch*", "PBrIner*", "BlPIner*", "PitchDOF", "PtfmYDOF"},
          "of blades or joints that the machine does not have"}};
+    if (fast7) all.push_back({{"*"}, "control, brakes, electrical drive, air and output: not part of the description"});
     return all;
 }
 
@@ -37,6 +39,7 @@ public:
         d_.name = file_.machine_name();
         d_.blades = file_.integer("NumBl", 1, 3);
         add_source(file_.name(), file_.text());
+        read_gravity();
         read_tower();
         read_yaw();
         read_nacelle();
@@ -46,7 +49,7 @@ public:
         read_blades();
         read_dofs();
         note_states();
-        for (FileNote& note : file_.notes(ignored_by_elastodyn())) out_.notes.push_back(std::move(note));
+        for (FileNote& note : file_.notes(ignored_by_elastodyn(is_fast7(file_)))) out_.notes.push_back(std::move(note));
         admit_unusual(out_, file_.name());
         return std::move(out_);
     }
@@ -76,17 +79,42 @@ private:
         for (FileNote& note : beam.notes) out_.notes.push_back(std::move(note));
     }
 
+    void read_gravity() {
+        if (!file_.has("Gravity")) return;
+        out_.gravity = not_negative("Gravity");
+        if (out_.gravity == 0) file_.note("Gravity", "nothing has weight in this model");
+    }
+
     void read_tower() {
-        const double top = file_.number("TowerHt"), base = file_.number("TowerBsHt");
-        if (!(top > base)) file_.fail("TowerHt", text("TowerHt = ", top, "; allowed: above TowerBsHt = ", base));
-        if (base != 0) file_.note("TowerBsHt", "the origin of the ground axes is the foot of the tower here");
-        d_.missing_foundation.where = text(base, " m above the ground or the still water (TowerBsHt)");
+        const double top = file_.number("TowerHt");
+        if (!is_fast7(file_)) return set_tower(top, file_.number("TowerBsHt"), "TowerBsHt");
+        const double rigid = not_negative("TwrRBHt");
+        if (rigid > 0) file_.note("TwrRBHt", "the part of the tower that is rigid belongs to the ground here");
+        set_tower(top, rigid - draft_of_platform(), "TwrRBHt");
+    }
+
+    void set_tower(double top, double base, const char* keyword) {
+        if (!(top > base))
+            file_.fail("TowerHt", text("TowerHt = ", top, "; allowed: above the tower's foot, ", base, " (", keyword,
+                                       "): a tower that hangs is that of a machine under water, which has no "
+                                       "description here"));
+        if (base != 0) file_.note(keyword, "the origin of the ground axes is the foot of the tower here");
+        d_.missing_foundation.where = text(base, " m above the ground or the still water (", keyword, ")");
         out_.tower_foot = base;
         const std::filesystem::path path = file_.path("TwrFile");
         ElastoDynBeam tower = file_.follow("TwrFile", [&] { return elastodyn_tower(path, top - base); });
         d_.tower.line = tower.line;
         d_.tower.damping = tower.damping;
         keep(tower, path.string());
+    }
+
+    // How far below the ground or the still water the tower begins, m, in FAST 7.
+    double draft_of_platform() {
+        if (file_.number_or("PtfmModel", 0) == 0) return 0;
+        file_.note("PtfmModel", "a platform is not read; see TurbineDescription::platform");
+        d_.missing_foundation.name = file_.number("PtfmModel") == 3 ? "floating platform" : "foundation";
+        const std::filesystem::path path = file_.path("PtfmFile");
+        return file_.follow("PtfmFile", [&] { return OpenFastFile::read(path).number("TwrDraft"); });
     }
 
     void read_yaw() {
@@ -135,7 +163,7 @@ private:
     }
 
     void read_hub() {
-        d_.hub.radius = positive("HubRad");
+        d_.hub.radius = not_negative("HubRad");
         RigidInertia& hub = d_.hub.inertia;
         hub.mass = not_negative("HubMass");
         hub.com = {0, 0, file_.number("HubCM")};
@@ -321,7 +349,6 @@ private:
         run.rotor_speed = speed * units::rpm;
         if (!out_.pitch_source.empty()) run.pitch = out_.pitch;
         if (file_.has("Azimuth")) run.azimuth = angle("Azimuth", 360);
-        run.gravity = file_.number_or("Gravity", units::standard_gravity) != 0;
         if (file_.has("NacYaw")) run.yaw = angle("NacYaw", 180);
         file_.note_unless("NacYaw", 0, "of the start of a run in time; else the nacelle points into the wind here");
         for (const char* keyword : {"OoPDefl", "IPDefl", "TTDspFA", "TTDspSS", "PtfmSurge", "PtfmSway", "PtfmHeave",
@@ -339,6 +366,10 @@ private:
 };
 
 }  // namespace
+
+bool is_fast7(const OpenFastFile& file) {
+    return file.has("NumBl") && file.has("TwrRBHt") && !file.has("TowerBsHt");
+}
 
 TurbineFile read_elastodyn(const std::filesystem::path& path, const ElastoDynContext& context) {
     return Reader(path, context).read();

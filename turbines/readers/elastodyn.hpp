@@ -48,7 +48,11 @@ struct ElastoDynContext {
         {};  ///< from BeamDyn, by number, where they have files of their own
 };
 
-/// The main file, with the blade and tower files it names.
+/// Is it the main file of FAST 7? It has the entries of ElastoDyn and ServoDyn; a part of the tower may be rigid
+/// (TwrRBHt), the tower's foot is in the file of the platform.
+bool is_fast7(const OpenFastFile& file);
+
+/// The main file, or that of FAST 7, with the blade and tower files it names.
 /// @throws ParseError, FileError; InputError for sections that do not form a valid beam
 TurbineFile read_elastodyn(const std::filesystem::path& path, const ElastoDynContext& context = {});
 

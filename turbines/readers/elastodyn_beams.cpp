@@ -114,6 +114,17 @@ void note_old_columns(std::vector<FileNote>& notes, const OpenFastTable& table,
             {table.file, table.line, used, "", "columns of FAST 7: ElastoDyn leaves them out, here they count"});
 }
 
+// Torsion moves nothing where sections have no inertia about their axis, as in files of FAST 7 that leave it out.
+bool can_twist(const OpenFastTable& table, std::initializer_list<const char*> inertias) {
+    return std::ranges::any_of(inertias, [&](const char* column) { return holds(table, column); });
+}
+
+void note_without_torsion(std::vector<FileNote>& notes, const OpenFastTable& table,
+                          std::initializer_list<const char*> others, const char* torsion) {
+    note_old_columns(notes, table, others);
+    note_column(notes, table, torsion, "rigid in torsion: the file has no inertia of the sections about the axis");
+}
+
 // Columns that nothing is read from.
 void note_other_columns(std::vector<FileNote>& notes, const OpenFastTable& table,
                         const std::vector<std::string_view>& read) {
@@ -145,6 +156,7 @@ ElastoDynBeam elastodyn_blade(const std::filesystem::path& path, double length) 
     const std::size_t count = rows_of(file, "NBlInpSt");
     const OpenFastTable t = file.table("BlFract", count);
     const double mass_factor = factor(file, "AdjBlMs");
+    const bool twists = can_twist(t, {"FlpIner", "EdgIner", "FlpcgOf", "EdgcgOf"});
     const Column mass(t, "BMassDen", mass_factor, 0), flap(t, "FlpStff", factor(file, "AdjFlSt"), 0),
         edge(t, "EdgStff", factor(file, "AdjEdSt"), 0), twist(t, "StrcTwst", 1, 0), GJ(t, "GJStff", 1, rigid),
         EA(t, "EAStff", 1, rigid), j_flap(t, "FlpIner", mass_factor, 0), j_edge(t, "EdgIner", mass_factor, 0),
@@ -158,7 +170,7 @@ ElastoDynBeam elastodyn_blade(const std::filesystem::path& path, double length) 
         s.mass = mass.not_negative(i);
         s.EI_flap = flap.positive(i);
         s.EI_edge = edge.positive(i);
-        s.GJ = GJ.positive(i);
+        s.GJ = twists ? GJ.positive(i) : rigid;
         s.EA = EA.positive(i);
         s.j_flap = j_flap.not_negative(i);
         s.j_edge = j_edge.not_negative(i);
@@ -177,7 +189,10 @@ ElastoDynBeam elastodyn_blade(const std::filesystem::path& path, double length) 
     blade.damping = BeamDamping::of_modes(modal);
     for (const char* keyword : {"FlStTunr(1)", "FlStTunr(2)"})
         file.left_out_unless(keyword, 1, "tunes the stiffness of one mode; the beam has the stiffness of the table");
-    note_old_columns(blade.notes, t, {"GJStff", "EAStff", "FlpIner", "EdgIner", "FlpcgOf", "EdgcgOf"});
+    if (twists)
+        note_old_columns(blade.notes, t, {"GJStff", "EAStff", "FlpIner", "EdgIner", "FlpcgOf", "EdgcgOf"});
+    else
+        note_without_torsion(blade.notes, t, {"EAStff"}, "GJStff");
     note_column(blade.notes, t, "Alpha", "coupling of flap and twist: not used");
     for (const char* offset : {"FlpEAOf", "EdgEAOf", "PrecrvRef", "PreswpRef"})
         note_column(blade.notes, t, offset, "the reference line is straight and the elastic axis is the pitch axis");
@@ -193,6 +208,7 @@ ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length) 
     const std::size_t count = rows_of(file, "NTwInpSt");
     const OpenFastTable t = file.table("HtFract", count);
     const double mass_factor = factor(file, "AdjTwMa");
+    const bool twists = can_twist(t, {"TwFAIner", "TwSSIner"});
     const Column mass(t, "TMassDen", mass_factor, 0), fore_aft(t, "TwFAStif", factor(file, "AdjFASt"), 0),
         side(t, "TwSSStif", factor(file, "AdjSSSt"), 0), GJ(t, "TwGJStif", 1, rigid), EA(t, "TwEAStif", 1, rigid),
         j_fore_aft(t, "TwFAIner", mass_factor, 0), j_side(t, "TwSSIner", mass_factor, 0);
@@ -205,7 +221,7 @@ ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length) 
         s.mass = mass.not_negative(i);
         s.EI_flap = side.positive(i);
         s.EI_edge = fore_aft.positive(i);
-        s.GJ = GJ.positive(i);
+        s.GJ = twists ? GJ.positive(i) : rigid;
         s.EA = EA.positive(i);
         s.j_flap = j_side.not_negative(i);
         s.j_edge = j_fore_aft.not_negative(i);
@@ -220,7 +236,10 @@ ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length) 
     tower.damping = BeamDamping::of_modes(modal);
     for (const char* keyword : {"FAStTunr(1)", "FAStTunr(2)", "SSStTunr(1)", "SSStTunr(2)"})
         file.left_out_unless(keyword, 1, "tunes the stiffness of one mode; the beam has the stiffness of the table");
-    note_old_columns(tower.notes, t, {"TwGJStif", "TwEAStif", "TwFAIner", "TwSSIner"});
+    if (twists)
+        note_old_columns(tower.notes, t, {"TwGJStif", "TwEAStif", "TwFAIner", "TwSSIner"});
+    else
+        note_without_torsion(tower.notes, t, {"TwEAStif"}, "TwGJStif");
     for (const char* offset : {"TwFAcgOf", "TwSScgOf"})
         note_column(tower.notes, t, offset, "the mass centres of the tower lie on its axis here");
     note_other_columns(tower.notes, t,

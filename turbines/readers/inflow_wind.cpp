@@ -48,16 +48,17 @@ SteadyWind uniform_row(const std::vector<double>& row, const UniformWind& common
             .vertical = row[3]};
 }
 
-std::vector<double> numbers_of(const std::string& line, const std::string& file, int number) {
-    std::istringstream words = text_reader(line.substr(0, line.find_first_of("!#%")));
+// The numbers with which the line begins, as many as count.
+std::vector<double> numbers_of(std::string_view line, const std::string& file, int number) {
+    constexpr std::size_t least = 8, most = 9;
     std::vector<double> row;
-    for (std::string word; words >> word;) {
-        if (word.back() == ',') word.pop_back();
+    for (const std::string_view word : words_of(line.substr(0, line.find_first_of("!#%")))) {
         const auto value = fortran_number(word);
-        if (!value) throw ParseError(file, number, 0, text("'", word, "' is not a number"));
+        if (!value && row.size() < least) throw ParseError(file, number, 0, text("'", word, "' is not a number"));
+        if (!value || row.size() == most) break;
         row.push_back(*value);
     }
-    if (!row.empty() && row.size() != 8 && row.size() != 9)
+    if (!row.empty() && row.size() < least)
         throw ParseError(file, number, 0,
                          text("8 numbers expected, or 9 with an angle of upflow: time, speed, direction, vertical "
                               "speed, horizontal shear, exponent, linear shear, gust; found ",

@@ -66,23 +66,48 @@ void set_run(OpenFastFile& main, ModelRun& run) {
     run.air = main.number_or("CompAero", 0) != 0;
     if (run.air && main.number_or("CompInflow", 0) != 0) run.wind = absolute(main.path("InflowFile"));
     run.controlled = main.number("CompServo") != 0;
-    if (main.has("Gravity")) run.gravity = main.number("Gravity") != 0;
+}
+
+// No rotor turns faster than sound; numbers beyond stand in files where they are not used.
+bool is_possible(const TurbineFile& out, double rotor_speed) {
+    constexpr double sound = 340;  // m/s
+    const TurbineDescription& d = out.description;
+    return rotor_speed * (d.hub.radius + d.blade.line.length) < sound;
 }
 
 // The controller knows how the blades stand in operation; ElastoDyn, how they start.
 void set_operation(TurbineFile& out, const ServoDyn& servo) {
-    if (servo.rated_generator_speed > 0) {
-        out.rotor_speed = out.description.rotor_speed =
-            servo.rated_generator_speed / out.description.drive_train.gear_ratio;
+    const double gears = out.description.drive_train.gear_ratio, speed = servo.rated_generator_speed / gears;
+    out.operation = servo.operation;
+    if (speed > 0 && is_possible(out, speed)) {
+        out.rotor_speed = out.description.rotor_speed = speed;
         out.rotor_speed_source = servo.speed_source;
+        if (out.operation.least_speed == 0) out.operation.least_speed = servo.least_generator_speed / gears;
+    } else if (speed > 0) {
+        out.notes.push_back({servo.speed_source, 0, "rated speed", text(speed * units::to_rpm, " rpm of the rotor"),
+                             "without meaning: the tips of the blades would be faster than sound"});
+        out.operation.rated_power = 0;
     }
     if (servo.fine_pitch) {
         out.pitch = *servo.fine_pitch;
         out.pitch_source = servo.pitch_source;
     }
     out.pitch_schedule = servo.pitch_schedule;
-    out.operation = servo.operation;
     out.controller = servo.controller;
+}
+
+// Of control and brakes there is a note already: what concerns the structure is added.
+TurbineFile read_fast7(const std::filesystem::path& path) {
+    const ServoDyn servo = read_servodyn(path);
+    ElastoDynContext context;
+    context.yaw = servo.yaw;
+    TurbineFile out = read_elastodyn(path, context);
+    out.notes.insert(out.notes.begin(),
+                     {path.string(), 0, "main file", "FAST 7", "it has the entries of ElastoDyn and ServoDyn"});
+    for (const FileNote& note : servo.notes)
+        if (note.line > 0) out.notes.push_back(note);
+    set_operation(out, servo);
+    return out;
 }
 
 }  // namespace
@@ -90,7 +115,7 @@ void set_operation(TurbineFile& out, const ServoDyn& servo) {
 TurbineFile read_openfast(const std::filesystem::path& path) {
     OpenFastFile main = OpenFastFile::read(path);
     if (!main.has("EDFile") && main.has("NumBl")) {
-        TurbineFile alone = read_elastodyn(path);
+        TurbineFile alone = is_fast7(main) ? read_fast7(path) : read_elastodyn(path);
         alone.run.reset();
         return alone;
     }
@@ -116,7 +141,12 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     for (const char* keyword : {"CompHydro", "CompSub", "CompMooring", "CompIce"})
         main.left_out_unless(keyword, 0,
                              "what the tower stands on is not part of the description; it is clamped at its foot");
-    main.left_out_unless("MHK", 0, "a machine under water is not part of the model");
+    main.left_out_unless("MHK", 0, "a machine under water: neither buoyancy nor added mass are part of the model");
+    if (main.has("Gravity")) {
+        out.gravity = main.number("Gravity");
+        if (!(out.gravity >= 0)) main.fail("Gravity", text("Gravity = ", out.gravity, "; allowed: >= 0"));
+        if (out.gravity == 0) main.note("Gravity", "nothing has weight in this model");
+    }
     append(out.notes, main.notes({{{"*"}, "simulation, aerodynamics and output: without meaning for the machine"}}));
     append(out.notes, std::move(servo.notes));
     set_operation(out, servo);

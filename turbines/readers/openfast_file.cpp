@@ -11,15 +11,31 @@ namespace cardan::turbines {
 
 namespace {
 
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+constexpr std::string_view blanks = " \t\r", list_of_channels = "outlist";
+
+// As Fortran reads them: T, .T., .true and the like.
+std::optional<bool> truth(std::string_view word) {
+    std::string w = lower_case(word);
+    std::erase(w, '.');
+    if (w == "true" || w == "t") return true;
+    if (w == "false" || w == "f") return false;
+    return std::nullopt;
 }
 
-std::optional<bool> truth(std::string_view word) {
-    const std::string w = lower_case(word);
-    if (w == "true" || w == "t" || w == ".true.") return true;
-    if (w == "false" || w == "f" || w == ".false.") return false;
-    return std::nullopt;
+std::string_view without_blanks(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+bool is_rule(std::string_view line) {
+    return line.starts_with("---") || line.starts_with("===");
+}
+
+// "END" may stand in quotes.
+bool is_end(std::string_view line) {
+    if (line.starts_with('"') || line.starts_with('\'')) line.remove_prefix(1);
+    return lower_case(line.substr(0, 3)) == "end";
 }
 
 // Old files hold single bytes of Latin-1 in their remarks; what is kept as text must be UTF-8.
@@ -64,6 +80,7 @@ std::string to_text(const FileNote& note) {
 
 std::vector<OpenFastFile::Token> OpenFastFile::tokens(std::string_view line) {
     constexpr std::string_view separators = " \t\r,";
+    constexpr std::string_view ends = " \t\r,!";
     std::vector<Token> all;
     for (std::size_t i = 0; i < line.size();) {
         if (separators.find(line[i]) != std::string_view::npos) {
@@ -78,31 +95,33 @@ std::vector<OpenFastFile::Token> OpenFastFile::tokens(std::string_view line) {
             i = close + 1;
             continue;
         }
-        const std::size_t end = std::min(line.find_first_of(separators, i), line.size());
+        const std::size_t end = std::min(line.find_first_of(ends, i), line.size());
         all.push_back({std::string(line.substr(i, end - i)), column, false});
         i = end;
     }
     return all;
 }
 
-// "value ... keyword - remark": the keyword is the first word after the first value that begins with a letter.
-OpenFastFile::Line OpenFastFile::classified(std::string_view line, int number) {
-    Line out{tokens(line), "", std::string(line), number, false};
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    const std::string_view start = first == std::string_view::npos ? std::string_view() : line.substr(first);
-    out.heading = number <= 2 || start.empty() || start.starts_with("---") || start.starts_with("===") ||
-                  start.starts_with('!') || start.starts_with('#') || lower_case(start.substr(0, 3)) == "end";
+// "value ... keyword - remark": the keyword is the first word after the first value that begins with a letter. A list
+// of output channels begins with a keyword that has no value.
+OpenFastFile::Line OpenFastFile::classified(std::string_view line, int number, int titles) {
+    Line out{tokens(line), "", std::string(line), number, false, false};
+    const std::string_view start = without_blanks(line);
+    out.blank = start.empty() || start.starts_with('!') || start.starts_with('#');
+    out.heading = number <= titles || out.blank || is_rule(start) || is_end(start);
     std::vector<Token>& t = out.tokens;
     const auto remark = std::find_if(t.begin(), t.end(), [](const Token& token) { return token.text == "-"; });
     t.erase(remark, t.end());
     if (out.heading || t.empty()) return out;
-    if (t.size() == 1 && !t[0].quoted && is_letter(t[0].text[0])) {
+    const bool list = !t[0].quoted && lower_case(t[0].text).starts_with(list_of_channels);
+    if (list || (t.size() == 1 && !t[0].quoted && is_letter(t[0].text[0]))) {
         out.keyword = t[0].text;
         t.clear();
         return out;
     }
-    const auto word = std::find_if(t.begin() + 1, t.end(),
-                                   [](const Token& token) { return !token.quoted && is_letter(token.text[0]); });
+    const auto word = std::find_if(t.begin() + 1, t.end(), [](const Token& token) {
+        return !token.quoted && !token.text.empty() && is_letter(token.text[0]);
+    });
     if (word == t.end()) return out;
     out.keyword = word->text;
     t.erase(word, t.end());
@@ -116,18 +135,19 @@ OpenFastFile OpenFastFile::parse(std::string_view text, std::string file) {
     out.file_ = std::move(file);
     out.text_ = utf8(text);
     std::string_view rest = out.text_;
-    bool in_list = false;  // of output channels, up to END
+    int titles = 2;
+    bool in_list = false;  // of output channels, up to END or the next heading
     for (int number = 1; !rest.empty(); ++number) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
-        Line line = classified(rest.substr(0, end), number);
+        const std::string_view all = rest.substr(0, end);
+        if (number == 2 && is_rule(all) && out.lines_.front().all.find_first_not_of("- \t\r") == std::string::npos)
+            ++titles;
+        Line line = classified(all, number, titles);
         rest.remove_prefix(std::min(end + 1, rest.size()));
-        if (number == 2) {
-            const std::size_t begin = line.all.find_first_not_of(" \t\r"), last = line.all.find_last_not_of(" \t\r");
-            if (begin != std::string::npos) out.title_ = line.all.substr(begin, last - begin + 1);
-        }
-        const bool blank = line.all.find_first_not_of(" \t\r") == std::string::npos;
-        if (in_list && (blank || !line.heading)) continue;
-        in_list = lower_case(line.keyword) == "outlist";
+        if (number == titles) out.title_ = without_blanks(line.all);
+        const std::string_view start = without_blanks(line.all);
+        if (in_list && !is_rule(start) && !is_end(start)) continue;
+        in_list = lower_case(line.keyword).starts_with(list_of_channels);
         out.lines_.push_back(std::move(line));
     }
     if (out.lines_.size() < 3) throw ParseError(out.file_, 1, 0, "an OpenFAST input file begins with two title lines");
@@ -146,10 +166,16 @@ OpenFastFile OpenFastFile::read(const std::filesystem::path& path) {
     return parse(text_file(path), path.string());
 }
 
+// The one with a value, if there are several: words that stand alone are also what remains of other lists.
 const OpenFastFile::Line* OpenFastFile::find(std::string_view keyword) const {
-    const auto found = std::find_if(lines_.begin(), lines_.end(),
-                                    [key = key_of(keyword)](const Line& l) { return key_of(l.keyword) == key; });
-    return found == lines_.end() ? nullptr : &*found;
+    const std::string key = key_of(keyword);
+    const Line* found = nullptr;
+    for (const Line& line : lines_) {
+        if (key_of(line.keyword) != key) continue;
+        if (!line.tokens.empty()) return &line;
+        if (found == nullptr) found = &line;
+    }
+    return found;
 }
 
 OpenFastFile::Line* OpenFastFile::find(std::string_view keyword) {
@@ -163,7 +189,7 @@ OpenFastFile::Line& OpenFastFile::known(std::string_view keyword) {
                          cardan::text("no line with the keyword ", keyword, " up to the end of the file"));
     const std::string key = key_of(keyword);
     for (const Line& other : lines_)
-        if (&other != line && key_of(other.keyword) == key)
+        if (&other != line && !other.tokens.empty() && key_of(other.keyword) == key)
             throw ParseError(file_, other.number, 0,
                              cardan::text(keyword, " is there already, in line ", line->number));
     line->used = true;
@@ -196,11 +222,17 @@ double OpenFastFile::number_or(std::string_view keyword, double otherwise) {
 
 std::vector<double> OpenFastFile::numbers(std::string_view keyword, std::size_t count) {
     const Line& line = known(keyword);
-    if (line.tokens.size() != count)
+    if (line.tokens.size() < count)
         fail(keyword, cardan::text(count, " numbers expected before ", keyword, ", found ", line.tokens.size()));
     std::vector<double> values;
-    for (const Token& token : line.tokens) values.push_back(parsed(token, line.number, keyword));
+    for (std::size_t k = 0; k < count; ++k) values.push_back(parsed(line.tokens[k], line.number, keyword));
     return values;
+}
+
+bool OpenFastFile::is_number(std::string_view keyword, double value) const {
+    const Line* line = find(keyword);
+    return line != nullptr && line->tokens.size() == 1 && !line->tokens.front().quoted &&
+           fortran_number(line->tokens.front().text) == value;
 }
 
 int OpenFastFile::integer(std::string_view keyword, int least, int most) {
@@ -272,36 +304,8 @@ std::optional<double> OpenFastFile::number_before(std::string_view end, std::str
     return parsed(token, line->number, keyword);
 }
 
-std::filesystem::path OpenFastFile::path_of(std::string_view keyword, std::size_t part) {
-    const Token& token = token_of(keyword, part);
-    return beside(token.text, line_of(keyword, part).number, keyword);
-}
-
 double OpenFastFile::number_or_default(std::string_view keyword, double otherwise) {
     return !has(keyword) || lower_case(word(keyword)) == "default" ? otherwise : number(keyword);
-}
-
-std::filesystem::path OpenFastFile::beside(std::string given, int line, std::string_view keyword) const {
-    std::replace(given.begin(), given.end(), '\\', '/');
-    if (given.empty()) throw ParseError(file_, line, 0, cardan::text(keyword, ": the name of the file is empty"));
-    return std::filesystem::path(file_).parent_path() / given;
-}
-
-std::filesystem::path OpenFastFile::path(std::string_view keyword) {
-    return beside(word(keyword), known(keyword).number, keyword);
-}
-
-std::vector<std::filesystem::path> OpenFastFile::paths(std::string_view keyword, std::size_t count) {
-    std::vector<std::filesystem::path> all;
-    auto line = lines_.begin() + (&known(keyword) - lines_.data());
-    for (; all.size() < count; ++line) {
-        if (line == lines_.end() || line->tokens.size() != 1 || (!all.empty() && !line->keyword.empty()))
-            throw ParseError(file_, line == lines_.end() ? lines_.back().number : line->number, 0,
-                             cardan::text(keyword, ": ", count, " names of files expected, found ", all.size()));
-        line->used = true;
-        all.push_back(beside(line->tokens.front().text, line->number, keyword));
-    }
-    return all;
 }
 
 void OpenFastFile::fail(std::string_view keyword, std::string_view what) const {

@@ -2,8 +2,11 @@
 /// The lines of OpenFAST input files: values, then a keyword, then " - " and a remark.
 ///
 /// Entries are found by keyword, not by line number, so that files of all versions are read alike. Keywords are
-/// compared without regard to case. The first line is a heading and the second a title, as are later lines that begin
-/// with "---", "===", "!" or "#". Numbers may be in Fortran notation (1.0D+3, .5, 5.).
+/// compared without regard to case. The first line is a heading and the second a title (the third, where a line of
+/// dashes stands before, as in FAST 7); headings are also later lines that begin with "---", "===", "!" or "#". Numbers
+/// may be in Fortran notation (1.0D+3, 1.0+3, .5, 5.), flags too (T, .F., .true). Commas, tabs and blanks separate
+/// alike. Behind the columns of a table a line may go on: readers take the numbers they expect, as OpenFAST does; those
+/// that are left are noted, words are remarks.
 #pragma once
 
 #include "mbs/base/error.hpp"
@@ -40,10 +43,12 @@ struct KeywordGroup {
 
 class OpenFastFile {
 public:
-    /// Numbers of one line, outside of the keyword lines.
+    /// The numbers with which a line begins, outside of the keyword lines.
     struct Row {
         std::vector<double> values;
         int line;
+        int column;        ///< of the word behind them; 0: not known
+        std::string next;  ///< that word; empty: none
     };
 
     static OpenFastFile parse(std::string_view text, std::string file);
@@ -61,14 +66,17 @@ public:
     /// and for a value of the wrong kind. Entries that were requested count as used.
     double number(std::string_view keyword);
     double number_or(std::string_view keyword, double otherwise);
+    /// The first so many.
     std::vector<double> numbers(std::string_view keyword, std::size_t count);
+    /// Is there an entry of one value, this number? It does not count as used.
+    bool is_number(std::string_view keyword, double value) const;
     int integer(std::string_view keyword, int least, int most);
     bool flag(std::string_view keyword);
     bool flag_or(std::string_view keyword, bool otherwise);
     std::string word(std::string_view keyword);
     /// What stands in place of a number may be the word "default".
     double number_or_default(std::string_view keyword, double otherwise);
-    /// A path relative to the folder of this file.
+    /// A path relative to the folder of this file; where there is none of this name, that of one in another case.
     std::filesystem::path path(std::string_view keyword);
     /// Paths in the line of the keyword and in those after it.
     std::vector<std::filesystem::path> paths(std::string_view keyword, std::size_t count);
@@ -82,11 +90,14 @@ public:
         }
     }
 
-    /// The rows below a line of names that begins with `first` and a line of units.
+    /// The rows below a line of names that begins with `first` (with an * behind: with a word that begins so) and a
+    /// line of units. What stands in brackets among the names is a remark.
     OpenFastTable table(std::string_view first, std::size_t rows);
     /// The rows of numbers below the heading, or the line of names, that contains `what`, up to the next heading or
-    /// keyword; lines without numbers are passed over.
+    /// line without a number; those in between are passed over.
     std::vector<Row> rows_below(std::string_view what);
+    /// @throws ParseError unless the row has so many numbers
+    void require(const Row& row, std::size_t count, std::string_view what) const;
 
     /// How many lines have the keyword.
     std::size_t count(std::string_view keyword) const;
@@ -132,11 +143,12 @@ private:
         std::string all;
         int number;
         bool heading;
+        bool blank;  // or a remark alone
         bool used = false;
     };
     OpenFastFile() = default;
     static std::vector<Token> tokens(std::string_view line);
-    static Line classified(std::string_view line, int number);
+    static Line classified(std::string_view line, int number, int titles);
     Line* find(std::string_view keyword);
     const Line* find(std::string_view keyword) const;
     Line& known(std::string_view keyword);
@@ -147,6 +159,9 @@ private:
     const Token& single(std::string_view keyword);
     std::filesystem::path beside(std::string given, int line, std::string_view keyword) const;
     std::optional<std::vector<double>> numbers_of(const Line& line) const;
+    static Row row_of(const Line& line);
+    static std::vector<std::string> names_in(const Line& line);
+    std::vector<Line>::iterator header(std::string_view first);
     double parsed(const Token& token, int line, std::string_view what) const;
 
     std::string file_, title_, text_;

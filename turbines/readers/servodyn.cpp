@@ -7,14 +7,16 @@
 #include "turbines/readers/openfast_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace cardan::turbines {
 
 namespace {
 
-struct GeneratorSpeed {
-    double value = 0;  // rad/s
+struct Generator {
+    double rated_speed = 0, least_speed = 0;  // rad/s
+    double torque = 0;                        // at the rated speed, N m
     std::string source;
 };
 
@@ -22,25 +24,53 @@ std::string in_file(const char* keywords, const std::filesystem::path& file) {
     return text(keywords, " of ", file.filename().string());
 }
 
-// None: there is no file, or it cannot be read.
+// None: there is no file, it cannot be read, or it is another controller's.
 std::optional<ControllerFile> controller_file(OpenFastFile& file) {
     if (!file.has("DLL_InFile") || file.word("DLL_InFile").empty()) return std::nullopt;
     try {
-        return ControllerFile(text_file(file.path("DLL_InFile")));
+        const std::filesystem::path path = file.path("DLL_InFile");
+        ControllerFile controller(text_file(path), path.string());
+        if (controller.is_rosco()) return controller;
+        file.note("DLL_InFile", "not a file of ROSCO: rated speed, power and pitch are not read from it");
     } catch (const FileError& error) {
         file.left_out("DLL_InFile", text("not read (", error.what(), "); it may have the rated speed and the pitch"));
     }
     return std::nullopt;
 }
 
-GeneratorSpeed of_induction_generator(OpenFastFile& file) {
-    if (file.number_or("GenModel", 0) == 1)
-        return {file.number("SIG_SySp") * (1 + file.number("SIG_SlPc") / 100) * units::rpm,
+// Entries that are not used often have one number that means nothing, as 9999.9.
+bool is_placeholder(OpenFastFile& file, const char* keyword) {
+    constexpr std::array entries{"VS_RtGnSp", "VS_RtTq",  "VS_Rgn2K", "VS_SlPc",  "SIG_SlPc", "SIG_SySp", "SIG_RtTq",
+                                 "SIG_PORt",  "TEC_Freq", "TEC_SRes", "TEC_RRes", "TEC_VLL",  "TEC_SLR",  "TEC_MR"};
+    const double value = file.number(keyword);
+    if (value == 0) return false;  // not given
+    const auto same = std::ranges::count_if(entries, [&](const char* other) { return file.is_number(other, value); });
+    if (same < 3) return false;
+    file.note(keyword, text("a placeholder: ", same, " entries of the generator have this number"));
+    return true;
+}
+
+// Of the rated speed, N m; 0: not given.
+double torque_of(OpenFastFile& file, const char* keyword) {
+    return file.has(keyword) && !is_placeholder(file, keyword) ? file.number(keyword) : 0;
+}
+
+Generator of_induction_generator(OpenFastFile& file) {
+    if (file.number_or("GenModel", 0) == 1 && !is_placeholder(file, "SIG_SySp")) {
+        const double synchronous = file.number("SIG_SySp") * units::rpm;
+        return {synchronous * (1 + file.number("SIG_SlPc") / 100), synchronous, torque_of(file, "SIG_RtTq"),
                 in_file("SIG_SySp and SIG_SlPc", file.name())};
-    if (file.number_or("GenModel", 0) == 2 && file.number("TEC_NPol") > 0)
-        return {4 * pi * file.number("TEC_Freq") / file.number("TEC_NPol"),
-                in_file("TEC_Freq and TEC_NPol", file.name())};
+    }
+    if (file.number_or("GenModel", 0) == 2 && file.number("TEC_NPol") > 0 && !is_placeholder(file, "TEC_Freq")) {
+        const double synchronous = 4 * pi * file.number("TEC_Freq") / file.number("TEC_NPol");
+        return {synchronous, synchronous, 0, in_file("TEC_Freq and TEC_NPol", file.name())};
+    }
     return {};
+}
+
+Generator of_torque_law(OpenFastFile& file) {
+    if (is_placeholder(file, "VS_RtGnSp")) return {};
+    return {file.number("VS_RtGnSp") * units::rpm, 0, torque_of(file, "VS_RtTq"), in_file("VS_RtGnSp", file.name())};
 }
 
 // Near the synchronous speed: the simple one (GenModel 1), or by Thevenin's equivalent circuit (2). Without its numbers
@@ -63,13 +93,12 @@ SlippingGenerator slipping_generator(OpenFastFile& file) {
 // 3 and others are routines of the user's.
 enum class Control : std::uint8_t { generator_model = 0, torque_law = 1, controller = 5 };
 
-GeneratorSpeed generator_speed(OpenFastFile& file, const std::optional<ControllerFile>& controller) {
+Generator generator(OpenFastFile& file, const std::optional<ControllerFile>& controller) {
     const int control = file.integer("VSContrl", 0, 5);
     if (control == static_cast<int>(Control::generator_model)) return of_induction_generator(file);
-    if (control == static_cast<int>(Control::torque_law))
-        return {file.number("VS_RtGnSp") * units::rpm, in_file("VS_RtGnSp", file.name())};
+    if (control == static_cast<int>(Control::torque_law)) return of_torque_law(file);
     if (control != static_cast<int>(Control::controller) || !controller) return {};
-    return {controller->number("PC_RefSpd").value_or(0), in_file("PC_RefSpd", file.path("DLL_InFile"))};
+    return {controller->number("PC_RefSpd").value_or(0), 0, 0, in_file("PC_RefSpd", file.path("DLL_InFile"))};
 }
 
 void read_pitch(OpenFastFile& file, const std::optional<ControllerFile>& controller, ServoDyn& servo) {
@@ -116,15 +145,20 @@ ServoDyn read_servodyn(const std::filesystem::path& path) {
     const bool needed = file.number_or("VSContrl", 0) == static_cast<int>(Control::controller) ||
                         file.number_or("PCMode", 0) == static_cast<int>(Control::controller);
     const std::optional<ControllerFile> controller = needed ? controller_file(file) : std::nullopt;
-    const GeneratorSpeed speed = generator_speed(file, controller);
+    const Generator machine = generator(file, controller);
     read_pitch(file, controller, servo);
     if (controller) {
         servo.operation = operation_of(*controller);
         servo.operation.source = file.path("DLL_InFile").filename().string();
     }
-    if (speed.value > 0) {
-        servo.rated_generator_speed = speed.value;
-        servo.speed_source = speed.source;
+    if (servo.operation.rated_power == 0 && machine.rated_speed > 0 && machine.torque > 0) {
+        servo.operation.rated_power = machine.torque * machine.rated_speed;
+        if (!controller) servo.operation.source = path.filename().string();
+    }
+    if (machine.rated_speed > 0) {
+        servo.rated_generator_speed = machine.rated_speed;
+        servo.least_generator_speed = machine.least_speed;
+        servo.speed_source = machine.source;
     }
     for (const char* keyword : {"NumBStC", "NumNStC", "NumTStC", "NumSStC"})
         file.left_out_unless(keyword, 0, "dampers and masses of structural control are not part of the model");

@@ -2,6 +2,7 @@
 /// What the readers of model files return: a description, and a note on everything in the files that it does not hold.
 #pragma once
 
+#include "mbs/base/units.hpp"
 #include "turbines/model/description.hpp"
 #include "turbines/model/pitch_schedule.hpp"
 
@@ -58,7 +59,7 @@ struct PitchAt {
 
 /// How a controller runs the machine in the wind, as far as its file says so; 0 and empty: it does not.
 struct FileOperation {
-    double rated_power = 0;  ///< of the rotor, W: that of the generator over its efficiency
+    double rated_power = 0;  ///< of the rotor, W: that on the generator's shaft, losses of a gearbox left out
     double least_speed = 0;  ///< of the rotor, rad/s
     double tip_speed_ratio = 0;
     std::vector<PitchAtWind> least_pitch = {};
@@ -118,8 +119,7 @@ struct ModelRun {
     std::optional<double> pitch = {};        ///< of blade 1 at the start, leading edge upwind, rad
     std::optional<double> azimuth = {};      ///< of blade 1 at the start, rad
     std::optional<double> yaw = {};          ///< of the nacelle at the start, rad
-    bool gravity = true;
-    std::string file = {};  ///< absolute path of the main file
+    std::string file = {};                   ///< absolute path of the main file
 };
 
 /// Keyword of the note on angles and ratios that machines do not have: see admit_unusual().
@@ -143,6 +143,7 @@ struct TurbineFile {
     std::optional<ModelRun> run = std::nullopt;
     /// Of the tower's foot above the ground or the still water, m, as the files count heights; none: they do not say.
     std::optional<double> tower_foot = std::nullopt;
+    double gravity = units::standard_gravity;  ///< m/s^2, downward
 };
 
 /// Linear between the speeds of a schedule, constant beyond its ends; rad.  @throws InputError for an empty schedule

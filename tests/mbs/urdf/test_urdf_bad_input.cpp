@@ -72,6 +72,10 @@ TEST_CASE("urdf bad input: a link that moves and ends a branch needs an inertia"
     const std::string moved = ground_link + link_tag("arm", "") + joint_tag("hinge", "continuous", "ground", "arm");
     refused(robot(moved + link_tag("tip", "") + joint_tag("bolt", "fixed", "arm", "tip")), {"arm.urdf:3: link 'arm'"});
     CHECK_NOTHROW(parse_urdf(robot(moved + link_tag("tip") + joint_tag("bolt", "fixed", "arm", "tip"))));
+    refused(robot(ground_link + link_tag("arm") + link_tag("finger", "") +
+                  joint_tag("hinge", "continuous", "ground", "arm") +
+                  joint_tag("slide", "prismatic", "arm", "finger", R"(<mimic joint="hinge"/>)")),
+            {"arm.urdf:4: link 'finger' ends a branch", "<inertial>: that it mimics another joint"});
 }
 
 TEST_CASE("urdf bad input: impossible inertias", "[property]") {

@@ -1,7 +1,10 @@
 // Mass, centre of mass and inertia of URDF links in the bodies of a tree.
 #include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "mbs/model/summary.hpp"
 #include "tests/mbs/urdf/urdf_texts.hpp"
+
+#include <random>
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -13,6 +16,22 @@ const Mat3 box = Vec3(0.5 * 13, 0.5 * 10, 0.5 * 5).asDiagonal();
 std::string box_inertial(const std::string& origin) {
     return "<inertial>" + origin +
            R"(<mass value="6"/><inertia ixx="6.5" ixy="0" ixz="0" iyy="5" iyz="0" izz="2.5"/></inertial>)";
+}
+
+// The nearest number of so many digits.
+double rounded(double value, int digits) {
+    if (value == 0) return 0;
+    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1 - digits);
+    return std::round(value / unit) * unit;
+}
+std::string inertial_of(const Mat3& J) {
+    return text("<inertial><mass value=\"1\"/><inertia ixx=\"", J(0, 0), "\" ixy=\"", J(0, 1), "\" ixz=\"", J(0, 2),
+                "\" iyy=\"", J(1, 1), "\" iyz=\"", J(1, 2), "\" izz=\"", J(2, 2), "\"/></inertial>");
+}
+UrdfModel turning(const std::string& inertial) {
+    return parse_urdf(robot(link_tag("ground", "") + link_tag("arm", inertial) +
+                            joint_tag("hinge", "continuous", "ground", "arm", R"(<axis xyz="0 0 1"/>)")),
+                      "arm.urdf");
 }
 
 // The inertia of the only body in the axes of the link.
@@ -123,4 +142,30 @@ TEST_CASE("urdf: massless links are allowed inside of a branch and on fixed join
     CHECK_NOTHROW(parse_urdf(robot(link_tag("ground", nothing) + link_tag("cross", nothing) + link_tag("arm") +
                                    joint_tag("y", "continuous", "ground", "cross") +
                                    joint_tag("z", "continuous", "cross", "arm"))));
+}
+
+TEST_CASE("urdf: inertias of plates and rods that were rounded to three digits are read, with a note", "[analytic]") {
+    // A plate of edges a and b has (b^2, a^2, a^2 + b^2) / 12 per mass: the third moment is the sum of the two others.
+    const UrdfModel plate = turning(inertial_of(Vec3(0.333, 0.0833, 0.417).asDiagonal()));
+    CHECK(max_abs(in_link_axes(plate.tree, "arm").J - Mat3(Vec3(0.333, 0.0833, 0.4163).asDiagonal())) < 1e-15);
+    REQUIRE(plate.notes.size() == 1);
+    CHECK(has_note(plate.notes, "arm.urdf:3: link 'arm': principal moments of inertia 0.0833"));
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> edge(0.01, 3), angle(-pi, pi);
+    int mended = 0;
+    for (int i = 0; i < 300; ++i) {
+        const double a = edge(random), b = i % 3 == 0 ? 0 : edge(random);  // every third one is a rod
+        const Eigen::Isometry3d pose = rpy(angle(random), angle(random), angle(random));
+        const Mat3 R = i % 2 == 0 ? Mat3(Mat3::Identity()) : Mat3(pose.linear());
+        const Mat3 exact = R * Vec3(b * b, a * a, a * a + b * b).asDiagonal() * R.transpose() / 12;
+        const Mat3 J = exact.unaryExpr([](double x) { return std::abs(x) < 1e-12 ? 0.0 : rounded(x, 3); });
+        const UrdfModel model = turning(inertial_of((J + J.transpose()) / 2));
+        CHECK(max_abs(in_link_axes(model.tree, "arm").J - exact) < 0.02 * exact.norm());
+        mended += static_cast<int>(model.notes.size());
+    }
+    CHECK(mended > 60);
+    // What no rounding to three digits makes is refused.
+    check_refused([] { (void)turning(inertial_of(Vec3(0.33, 0.08, 0.42).asDiagonal())); },
+                  {"arm.urdf:3: link 'arm'", "triangle inequality"});
+    check_refused([] { (void)turning(inertial_of(Vec3(0.33, -0.01, 0.33).asDiagonal())); }, {"link 'arm'", ">= 0"});
 }

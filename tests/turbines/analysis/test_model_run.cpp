@@ -85,10 +85,6 @@ TEST_CASE("model run: what is given goes before the model, and there may be no a
 
     model.folder.replace("small.fst", "2   CompAero", "0   CompAero");
     CHECK(Simulation(model.read(), coarse()).settings().wind->is_none());
-    model.folder.replace("small.fst", "9.80665   Gravity", "0   Gravity");
-    const Simulation weightless(model.read(), coarse());
-    CHECK_FALSE(weightless.settings().gravity);
-    CHECK(says(weightless, "no gravity (small.fst)"));
 }
 
 TEST_CASE("model run: it survives our own YAML, and one that cannot be had says what to do", "[property]") {

@@ -6,6 +6,7 @@
 #include "turbines/readers/aerodyn.hpp"
 
 #include <fstream>
+#include <regex>
 
 namespace cardan::testing::aerodyn_reader_tests {
 
@@ -192,10 +193,12 @@ TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
     };
     check_error(with("polar_1.dat", "-10 -0.5", "-190 -0.5"),
                 {"polar_1.dat:17", "angle of attack = -190 deg after -180"});
-    check_error(with("polar_1.dat", "180.00 0.0", "170.00 0.0"), {"polar_1.dat:13", "-180 ... 170"});
+    check_error(with("polar_1.dat", "180.00 0.0", "270.00 0.0"),
+                {"polar_1.dat:16", "-180 ... 270; allowed: -180 ... 180, or 0 ... 360"});
     check_error(with("polar_1.dat", "4 NumAlf", "5 NumAlf"),
                 {"polar_1.dat:19", "row 5 of the 5 that NumAlf announces"});
-    check_error(with("polar_1.dat", "1.0D+1 1.0", "1.0D+1 x"), {"polar_1.dat:18", "2 numbers expected, found 1"});
+    check_error(with("polar_1.dat", "1.0D+1 1.0", "1.0D+1 x"),
+                {"polar_1.dat:18", "4 numbers expected, found 1, then 'x'"});
     check_error(with("blade.dat", "1.2 1\n", "1.2 3\n"), {"blade.dat:8", "BlAFID = 3; allowed: 1 ... 2"});
     check_error(with("blade.dat", "40.0 -1.5", "-40.0 -1.5"), {"blade.dat:8", "BlSpn", "ascending"});
     check_error(with("blade.dat", "1.2 1\n", "0 1\n"), {"blade.dat:8", "BlChord = 0; allowed: > 0"});
@@ -225,6 +228,101 @@ TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
         {"main.dat", "air on the nacelle: area [m^2] = -40"});
     check_error(with("main.dat", "1.1 AirDens", "-1 AirDens"), {"AirDens = -1; allowed: > 0"});
     check_error(with("main.dat", "2 NumAFfiles - files\n", ""), {"not a file of AeroDyn 15", "NumAFfiles"});
+}
+
+TEST_CASE("aerodyn: polars that do not reach around the circle keep the values of their ends, as in AeroDyn",
+          "[property]") {
+    const auto first = [](const std::string& rows) {
+        const Model model(newer);
+        model.write("polar_1.dat", "! a\n! b\n" + rows);
+        const AeroDynFile file = model.read();
+        return std::pair(file.blade.polars[0], test::has_note(file.notes, "angles of attack", ""));
+    };
+    const auto [to_20, noted] = first("3 NumAlf\n-179.9 0.1 0.2 0.3\n0 0.4 0.01 0\n20 1.4 0.2 -0.1\n");
+    CHECK(noted);
+    CHECK(to_20.at(10 * units::degree).lift == Approx(0.9));
+    CHECK(to_20.at(20 * units::degree).lift == Approx(1.4));
+    CHECK(to_20.at(3).lift == 1.4);
+    CHECK(to_20.at(-pi).drag == 0.2);
+    CHECK(to_20.at(-179.95 * units::degree).moment == Approx(0.3));
+    // A table from 0 to 360 deg is the same as one from -180 to 180, with a row at 180 deg or without.
+    const auto [whole, unsaid] =
+        first("5 NumAlf\n-180 0 0.1 0\n-90 -1 1.3 0\n0 0.3 0.01 0\n90 1 1.2 -0.1\n180 0 0.1 0\n");
+    CHECK(!unsaid);
+    for (const char* rows : {"5 NumAlf\n0 0.3 0.01 0\n90 1 1.2 -0.1\n180 0 0.1 0\n270 -1 1.3 0\n360 0.3 0.01 0\n",
+                             "4 NumAlf\n0 0.3 0.01 0\n90 1 1.2 -0.1\n180 0 0.1 0\n270 -1 1.3 0\n"}) {
+        const auto [turned, said] = first(rows);
+        CHECK(said);
+        for (const double angle : {-3.0, -1.6, -0.7, -0.1, 0.0, 0.4, 1.57, 2.2, 3.1}) {
+            if (std::string(rows)[0] == '4' && angle < 0 && angle > -pi / 2) continue;  // no row at 360 deg
+            CHECK(turned.at(angle).lift == Approx(whole.at(angle).lift).margin(1e-14));
+            CHECK(turned.at(angle).drag == Approx(whole.at(angle).drag));
+            CHECK(turned.at(angle).moment == Approx(whole.at(angle).moment).margin(1e-14));
+        }
+    }
+    const Polar twice = first("4 NumAlf\n-180 0 0.1 0\n0 0.3 0.01 0\n0 0.3 0.01 0\n180 0 0.1 0\n").first;
+    CHECK(twice.table().angles.size() == 3);
+    const auto [between, also] = first("3 NumAlf\n0 0.3 0.01 0\n90 1 1.2 0\n270 -1 1.3 0\n");
+    CHECK(also);
+    CHECK(between.at(pi).lift == Approx(0).margin(1e-14));
+    CHECK(between.at(-pi).drag == Approx(1.25));
+}
+
+TEST_CASE("aerodyn: files of AeroDyn 14 and older: elements along the blade, options, the first table of each polar",
+          "[property]") {
+    const test::Folder folder;
+    const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
+    const auto main = [](const char* units, const char* induction) {
+        return text("a title\n", units,
+                    " SysUnits - units\nBEDDOES StallMod - lags\nUSE_CM UseCm - moments\n"
+                    "EQUIL InfModel - inflow\n",
+                    induction,
+                    " IndModel - induction\n0.005 AToler - tolerance\n"
+                    "PRANDtl TLModel - tip\nNONE HLModel - hub\n0.3 TwrShad - shadow\n1.1 AirDens - density\n"
+                    "1.4E-5 KinVisc - air\n2 NumFoil - files\n\"a.dat\" FoilNm - names\n\"b.dat\"\n"
+                    "2 BldNodes - elements\nRNodes AeroTwst DRNodes Chord NFoil PrnElm\n"
+                    "3.0 12.0 2.0 1.5 1 NOPRINT\n6.5 4.0 5.0 1.0 2 PRINT\n");
+    };
+    write("main.ipt", main("SI", "SWIRL"));
+    const std::string remarks = "0 0.5 Table ID parameter\n10 11 Stall angle (deg)\n0 0 No longer used\n";
+    write("a.dat",
+          "round\nroot\n1 Number of airfoil tables in this file\n0 Table ID parameter\n0 Stall angle (deg)\n"
+          "-180 0 0.5 0\n180 0 0.5 0\n");
+    write("b.dat",
+          "thin\nof two\n2 Number of airfoil tables in this file\n" + remarks +
+              "-180 0.0 0.1 0.2 0.9 0.9 0.9\n0 0.4 0.01 -0.1 0.9 0.9 0.9\n20 1.6 0.2 0 0.9 0.9 0.9 stalled\nEOT\n");
+    const auto read = [&] { return read_aerodyn(folder / "main.ipt", 1.5); };
+    const AeroDynFile file = read();
+    // The elements reach from 2 to 4 m and from 4 to 9 m.
+    CHECK(file.blade.position == std::vector<double>{2, 3, 6.5, 9});
+    CHECK(file.blade.chord == std::vector<double>{1.5, 1.5, 1, 1});
+    CHECK(file.blade.twist[1] == Approx(12 * units::degree));
+    CHECK(file.blade.profile == std::vector<std::size_t>{0, 0, 1, 1});
+    const auto at_10 = file.blade.polars[1].at(10 * units::degree);
+    CHECK(at_10.lift == Approx(1.0));
+    CHECK(at_10.moment == Approx(-0.05));
+    CHECK(file.blade.polars[1].at(2).drag == 0.2);
+    CHECK(file.options.induction);
+    CHECK(file.options.momentum.rotation);
+    CHECK(file.options.momentum.tip_loss);
+    CHECK(!file.options.momentum.hub_loss);
+    CHECK(file.density == 1.1);
+    CHECK(file.unsteady);
+    CHECK(file.profiles.size() == 2);
+    for (const auto& [keyword, why] : {std::pair("StallMod", "UA_Mod = 4"),
+                                       {"TwrShad", "no shadow"},
+                                       {"airfoil tables", "the first one"},
+                                       {"angles of attack", "-180 ... 20"}})
+        CHECK((test::has_note(file.notes, keyword, why) || test::has_note(file.notes, keyword, "as in AeroDyn")));
+    write("main.ipt", main("SI", "NONE"));
+    CHECK(!read().options.induction);
+    write("main.ipt", main("ENGLISH", "NONE"));
+    check_error(read, {"main.ipt:2", "SysUnits = ENGLISH; allowed: SI"});
+    write("main.ipt", std::regex_replace(main("SI", "WAKE"), std::regex("1.0 2 PRINT"), "1.0 3 PRINT"));
+    check_error(read, {"main.ipt:19", "NFoil = 3; allowed: 1 ... 2"});
+    write("main.ipt", main("SI", "WAKE"));
+    write("a.dat", "x\ny\n1 Number of airfoil tables\n-180 0 0.5 0\n0 x 0.5 0\n180 0 0.5 0\n");
+    check_error(read, {"a.dat:5", "polar: 4 numbers expected, found 1, then 'x'"});
 }
 
 TEST_CASE("aerodyn: polars at several Reynolds numbers, or the first table of each", "[analytic]") {

@@ -246,5 +246,5 @@ TEST_CASE("beamdyn: files that do not describe a blade are refused with the line
     CHECK_THAT(blade("  0.4000", "  1.4000"), Contains("station 3 of 3, place = 1; allowed"));
     CHECK_THAT(blade("  6.00000E+07   0.00000E+00", " -6.00000E+07   0.00000E+00"),
                Contains("small_BeamDyn_Blade.dat:14: station 1 of 3: 6 x 6 stiffness"));
-    CHECK_THAT(blade(" 1.0E-03 1.1E-03", " 1.1E-03"), Contains("six numbers expected"));
+    CHECK_THAT(blade(" 1.0E-03 1.1E-03", " 1.1E-03"), Contains("mu1 ... mu6: 6 numbers expected, found 5"));
 }

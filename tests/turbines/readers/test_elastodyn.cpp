@@ -332,8 +332,9 @@ TEST_CASE("openfast: the main file leads to the others, and ServoDyn's spring ho
     CHECK(file.description.yaw.rotation.stiffness == 2e7);
     CHECK(file.description.yaw.rotation.damping == 3e4);
     CHECK(file.rotor_speed == Approx(46 * units::rpm).epsilon(1e-14));  // 1150 rpm of the generator over 25
-    CHECK(test::has_note(file.notes, "Gravity", "without meaning"));
-    CHECK(test::has_note(file.notes, "VS_RtTq", "control"));
+    CHECK(file.gravity == 9.80665);
+    CHECK(test::has_note(file.notes, "TMax", "without meaning"));
+    CHECK(test::has_note(file.notes, "YCMode", "control"));
     CHECK(file.controller.generator_efficiency == Approx(0.95).epsilon(1e-15));
     const test::ModelFolder model("openfast");
     std::filesystem::remove(model / "small_ServoDyn.dat");
@@ -353,7 +354,8 @@ TEST_CASE("elastodyn: numbers that do not describe a machine are refused with th
     };
     const auto main = [&](const char* a, const char* b) { return message("small_ElastoDyn.dat", a, b); };
     CHECK_THAT(main("10.5   TipRad", " 0.4   TipRad"), Contains("TipRad = 0.4; allowed: above HubRad = 0.5"));
-    CHECK_THAT(main("24.0   TowerHt", "-1.0   TowerHt"), Contains("TowerHt = -1; allowed: above TowerBsHt = 0"));
+    CHECK_THAT(main("24.0   TowerHt", "-1.0   TowerHt"),
+               Contains("TowerHt = -1; allowed: above the tower's foot, 0 (TowerBsHt)"));
     CHECK_THAT(main("9.0E+03   NacYIner", "1.0E+01   NacYIner"), Contains("NacYIner = 10; allowed: at least 191.25"));
     CHECK_THAT(main("   1200   HubMass", "  -1200   HubMass"), Contains("HubMass = -1200; allowed: >= 0"));
     CHECK_THAT(main("     25   GBRatio", "      0   GBRatio"), Contains("GBRatio = 0; allowed: > 0"));

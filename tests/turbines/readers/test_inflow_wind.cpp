@@ -73,6 +73,10 @@ TEST_CASE("inflow wind: uniform wind over time", "[analytic]") {
     const Vec3 expected(speed * std::cos(angle), -speed * std::sin(angle), 0.5);
     CHECK((wind.at(5).at(place) - expected).norm() < 1e-12 * speed);
 
+    // Fortran takes commas, tabs and blanks alike, numbers without the letter of their exponent, and leaves the rest.
+    files.write("a.wnd", "0,10.0,0,0.5,0.3,0.2,0.06,1\n1.0+01\t12.0,\t10,5.D-1 ,.3,0.2,0.06,1,0 and a remark\r\n");
+    CHECK((read_inflow_wind(files / "wind.dat").wind.at(5).at(place) - expected).norm() < 1e-12 * speed);
+
     files.write("a.wnd", "0 10 0 0 0 0 0 0\n-1 12 0 0 0 0 0 0\n");
     check_wind_error([&] { static_cast<void>(read_inflow_wind(files / "wind.dat")); }, {"a.wnd:2", "time = -1 s"});
     files.write("a.wnd", "0 10 0 0 0\n");

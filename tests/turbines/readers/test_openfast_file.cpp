@@ -85,13 +85,14 @@ TEST_CASE("openfast file: tables have as many rows as announced, each with all c
     const auto message = [&](const std::string& rows, std::size_t count) {
         return message_of([&] { (void)file(head + rows).table("A", count); });
     };
-    CHECK_THAT(message("1 2\n3\n", 2), Contains("x.dat:6: row 2 of 2 of the table of A: 2 numbers expected (A, B(2))"));
-    CHECK_THAT(message("1 2\n3 4 5\n", 2), Contains("x.dat:6: row 2 of 2 of the table of A: 2 numbers expected"));
+    CHECK_THAT(message("1 2\n3\n", 2),
+               Contains("x.dat:6: row 2 of 2 of the table of A (A, B(2)): 2 numbers expected, found 1"));
     CHECK_THAT(message("1 2\n--- end\n", 2), Contains("x.dat:6: row 2 of 2"));
     CHECK_THAT(message("1 2\n", 2), Contains("the file ends before it"));
     CHECK_THAT(message("1 2\n3 4\n5 6\n", 2), Contains("x.dat:7: one more row than the 2 announced"));
     CHECK_THAT(message("1 2\n3 *\n", 2),
-               Contains("x.dat:6:3: row 2 of 2 of the table of A, B(2): '*' is not a finite"));
+               Contains("x.dat:6:3: row 2 of 2 of the table of A (A, B(2)): 2 numbers expected, found 1, then '*'"));
+    CHECK_THAT(message("1 2\n3 x4\n", 2), Contains("x.dat:6: ") && Contains("found 1, then 'x4'"));
     CHECK_THAT(message_of([&] { (void)file(head + "1 2\n").table("C", 1); }),
                Contains("no table whose first column is C"));
     CHECK_THAT(message_of([&] { (void)t.column("C"); }), Contains("no column 'C'; there are: A, B(2)"));

@@ -31,6 +31,14 @@ TEST_CASE("servodyn: the rated speed comes from what drives the generator", "[an
     const ServoDyn thevenin = with("0", "2 GenModel\n60 TEC_Freq\n4 TEC_NPol\n");
     CHECK(thevenin.rated_generator_speed == Approx(2 * pi * 30).epsilon(1e-15));
     CHECK(thevenin.speed_source == "TEC_Freq and TEC_NPol of small_ServoDyn.dat");
+    // Power on the generator's shaft: torque times speed.
+    CHECK(torque_law.operation.rated_power == Approx(800 * 1150 * units::rpm).epsilon(1e-15));
+    CHECK(torque_law.operation.source == "small_ServoDyn.dat");
+    CHECK(torque_law.least_generator_speed == 0);
+    const ServoDyn rated = with("0", "1 GenModel\n2.0 SIG_SlPc\n1800 SIG_SySp\n500 SIG_RtTq\n2 SIG_PORt\n");
+    CHECK(rated.operation.rated_power == Approx(500 * 1836 * units::rpm).epsilon(1e-15));
+    CHECK(rated.least_generator_speed == Approx(1800 * units::rpm).epsilon(1e-15));
+    CHECK(thevenin.operation.rated_power == 0);
     // A routine of the user's says nothing.
     CHECK(with("3").rated_generator_speed == 0);
     CHECK_THAT(test::message_of([] { (void)with("7"); }), Contains("VSContrl = 7; allowed: 0 ... 5"));
@@ -48,8 +56,104 @@ TEST_CASE("servodyn: a ROSCO controller's file has the rated speed; others, and 
                 "! a table\n 0.1 0.2 ! PC_GS_angles - deg\n122.9096      ! PC_RefSpd - HSS speed, [rad/s].\n");
     CHECK(read().rated_generator_speed == 122.9096);
     CHECK(read().speed_source == "PC_RefSpd of DISCON.IN");
-    model.write("sub/DISCON.IN", std::string("\0\1binary", 8));
-    CHECK(read().rated_generator_speed == 0);
+    for (const std::string& other :
+         {std::string("\0\1binary", 8), std::string("; begin init\nconstant 1 15000.0 ; Rated power [kW]\n"),
+          std::string("! PC_RefSpd is not given\n10 ! Other - x\n5 VS_RtPwr\n")}) {
+        model.write("sub/DISCON.IN", other);
+        CHECK(read().rated_generator_speed == 0);
+        CHECK(test::has_note(read().notes, "DLL_InFile", "not a file of ROSCO"));
+    }
+}
+
+TEST_CASE("servodyn: entries that are not used have one number that means nothing", "[property]") {
+    const std::string sizes = "9999.9 SIG_SlPc\n9999.9 SIG_SySp\n9999.9 SIG_RtTq\n9999.9 SIG_PORt\n";
+    const ServoDyn simple = with("0", "1 GenModel\n" + sizes);
+    CHECK(simple.rated_generator_speed == 0);
+    CHECK(simple.operation.rated_power == 0);
+    CHECK(test::has_note(simple.notes, "SIG_SySp", "a placeholder: 4 entries"));
+    // Whatever the number is; but not where it is two times by chance.
+    CHECK(with("0", "1 GenModel\n777 SIG_SlPc\n777 SIG_SySp\n777 SIG_RtTq\n").rated_generator_speed == 0);
+    CHECK(with("0", "1 GenModel\n2 SIG_SlPc\n1500 SIG_SySp\n1500 SIG_RtTq\n2 SIG_PORt\n").rated_generator_speed ==
+          Approx(1530 * units::rpm));
+    CHECK(with("0", "2 GenModel\n9998 TEC_NPol\n99999.0 TEC_Freq\n99999. TEC_SRes\n9.9999E4 TEC_VLL\n")
+              .rated_generator_speed == 0);
+    CHECK(with("1", sizes).rated_generator_speed == Approx(1150 * units::rpm));
+}
+
+TEST_CASE("openfast: a rated speed at which the tips were faster than sound is none", "[property]") {
+    const test::ModelFolder model("openfast");
+    model.replace("small_ServoDyn.dat", "          1150   VS_RtGnSp", "          9999   VS_RtGnSp");
+    const TurbineFile file = read_openfast(model / "small.fst");  // 400 rpm of a rotor of 10.5 m: 440 m/s
+    CHECK(file.rotor_speed == Approx(45 * units::rpm));
+    CHECK(file.operation.rated_power == 0);
+    CHECK(test::has_note(file.notes, "rated speed", "faster than sound"));
+}
+
+namespace {
+
+// A ROSCO controller at work in the test's model, with a schedule of the pitch.
+struct WithController {
+    test::ModelFolder model{"openfast"};
+    WithController() {
+        model.replace("small_ServoDyn.dat", "             0   PCMode ",
+                      "\"DISCON.IN\" DLL_InFile\n             5   PCMode ");
+        model.replace("small_ServoDyn.dat", "             1   VSContrl ", "             5   VSContrl ");
+    }
+    [[nodiscard]] ServoDyn read(const std::string& schedule) const {
+        model.write("DISCON.IN",
+                    "1 ! PS_Mode\n100.0 ! PC_RefSpd\n0.02 ! PC_FinePit\n60.0 ! VS_MinOMSpd\n8.0 ! VS_TSRopt\n"
+                    "16.0 ! WE_BladeRadius\n20.0 ! WE_GearboxRatio\n" +
+                        schedule);
+        return read_servodyn(model / "small_ServoDyn.dat");
+    }
+    [[nodiscard]] std::string message(const std::string& schedule) const {
+        return test::message_of([&] { (void)read(schedule); });
+    }
+};
+
+}  // namespace
+
+TEST_CASE("servodyn: a ROSCO controller's file as Fortran reads it, with commas, tabs, any case and remarks",
+          "[property]") {
+    const WithController file;
+    const ServoDyn plain = file.read("3 ! PS_BldPitchMin_N\n7 9 11 ! PS_WindSpeeds\n0.05 0.03 0.04 ! PS_BldPitchMin\n");
+    REQUIRE(plain.pitch_schedule.size() == 3);
+    for (const char* same :
+         {"3 ! PS_BldPitchMin_N\n7, 9, 11 ! PS_WindSpeeds\n0.05,0.03,0.04 ! PS_BldPitchMin\n",
+          "3,!\tps_bldpitchmin_n\r\n7\t9\t11 !PS_WINDSPEEDS - m/s\r\n5.D-2 3.0-02 .04 ! PS_BldPitchMin",
+          "! PS_WindSpeeds, from 7 m/s\n3 ! PS_BldPitchMin_N\n7 9 11 m/s ! PS_WindSpeeds\n"
+          "0.05 0.03 0.04 0.1 0.2 and so on ! PS_BldPitchMin\n",
+          "7 9 11 ! PS_WindSpeeds\n0.05 0.03 0.04 ! PS_BldPitchMin\n"}) {
+        CAPTURE(same);
+        const ServoDyn read = file.read(same);
+        REQUIRE(read.pitch_schedule.size() == 3);
+        for (std::size_t i = 0; i < 3; ++i) {
+            CHECK(read.pitch_schedule[i].rotor_speed == plain.pitch_schedule[i].rotor_speed);
+            CHECK(read.pitch_schedule[i].pitch == plain.pitch_schedule[i].pitch);
+        }
+    }
+}
+
+TEST_CASE("servodyn: what of a ROSCO controller's file is not whole is refused with file and line", "[property]") {
+    const WithController file;
+    const std::string winds = "7 9 11 ! PS_WindSpeeds\n", pitch = "0.05 0.03 0.04 ! PS_BldPitchMin\n",
+                      count = "3 ! PS_BldPitchMin_N\n";
+    CHECK_THAT(file.message(count + winds + "0.05 x 0.04 ! PS_BldPitchMin\n"),
+               Contains("DISCON.IN:10: PS_BldPitchMin: 'x' is not a finite number"));
+    CHECK_THAT(file.message(count + "7 9.1.5 11 ! PS_WindSpeeds\n" + pitch),
+               Contains("DISCON.IN:9: PS_WindSpeeds: '9.1.5' is not"));
+    CHECK_THAT(file.message(count + winds + "0.05 0.03 ! PS_BldPitchMin\n"),
+               Contains("DISCON.IN:10: PS_BldPitchMin: 3 numbers expected, found 2"));
+    CHECK_THAT(file.message(winds + "0.05 0.03 ! PS_BldPitchMin\n"), Contains("2 numbers for 3 wind speeds"));
+    CHECK_THAT(file.message("7 9 8 ! PS_WindSpeeds\n" + pitch),
+               Contains("PS_WindSpeeds: 8 m/s after 9; allowed: ascending"));
+    CHECK_THAT(file.message(count + pitch), Contains("DISCON.IN:1: no line with the keyword PS_WindSpeeds"));
+    CHECK_THAT(file.message(count + winds + pitch + "4.5.6 ! VS_RtPwr\n"), Contains("DISCON.IN:11: VS_RtPwr: '4.5.6'"));
+    CHECK_THAT(file.message(count + winds + pitch + "90 ! pc_refspd\n"),
+               Contains("DISCON.IN:11: pc_refspd is there already, in line 2"));
+    // Power: electrical over the efficiency, else torque at the rated speed.
+    CHECK(file.read(winds + pitch + "5e6 ! VS_RtPwr\n80 ! VS_GenEff\n7 ! VS_RtTq\n").operation.rated_power == 6.25e6);
+    CHECK(file.read(winds + pitch + "5e6 ! VS_RtPwr\n70 ! VS_RtTq\n").operation.rated_power == 7000);
 }
 
 TEST_CASE("servodyn: library, input, period and efficiency are kept; what no library reads is not its input",

@@ -123,10 +123,6 @@ void take_run(const Machine& machine, SimulationSettings& s, const Report& repor
     }
     if (!s.wind) s.wind = WindSource::none();
     if (!s.azimuth) s.azimuth = 0;
-    if (machine.run && !machine.run->gravity && s.gravity) {
-        s.gravity = false;
-        report_remark(report, {Remark::Kind::taken, text("no gravity (", name_of(machine.run->file), ")")});
-    }
 }
 
 void take_controller(const Machine& machine, Controller& c, const Report& report) {

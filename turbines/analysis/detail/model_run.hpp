@@ -7,7 +7,7 @@
 
 namespace cardan::turbines {
 
-/// Wind, start and gravity of the model's own run (Machine::run); a run in another wind starts as the machine runs.
+/// Wind and start of the model's own run (Machine::run); a run in another wind starts as the machine runs.
 /// What was taken is reported.
 /// @param settings  in and out; afterwards there are a wind, which may be none, and an azimuth
 /// @throws InputError for a model whose wind or air cannot be read

@@ -170,7 +170,6 @@ void run_fields(Archive& archive, Run& r) {
     archive.optional_number("pitch", r.pitch);
     archive.optional_number("azimuth", r.azimuth);
     archive.optional_number("yaw", r.yaw);
-    archive.optional_flag("gravity", r.gravity);
     archive.optional_word("file", r.file);
 }
 
@@ -181,6 +180,7 @@ void machine_fields(Archive& archive, AnyMachine& m, Air& air) {
     archive.group_if(true, "site", [&] {
         archive.optional_number("density", m.site.density);
         archive.optional_number("viscosity", m.site.viscosity);
+        archive.optional_number("gravity", m.site.gravity);
         archive.optional_number("tower_foot", m.site.tower_foot);
     });
     archive.group_if(true, "operation", [&] { operation_fields(archive, m.operation); });

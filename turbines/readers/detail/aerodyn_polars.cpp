@@ -19,29 +19,9 @@ constexpr double cut_out = 45, cut_out_range = 5;  // deg, of UnsteadyProfile
 constexpr double same_lift = 0.05;                 // at rest and in the table: Kirchhoff's flow makes up a little less
 constexpr double attached = 8 * units::degree;     // where it is looked at
 
-Polar::Table polar_table(OpenFastFile& file, const PolarColumns& columns, std::size_t part) {
-    const std::vector<OpenFastFile::Row> rows = file.rows_after("NumAlf", part);
-    Polar::Table out;
-    for (auto* column : {&out.angles, &out.lift, &out.drag, &out.moment}) column->reserve(rows.size());
-    for (const OpenFastFile::Row& row : rows) {
-        const auto value = [&](int column) {
-            if (column == 0) return 0.0;
-            if (static_cast<std::size_t>(column) > row.values.size())
-                throw ParseError(file.name(), row.line, 0,
-                                 text(column, " numbers expected, found ", row.values.size()));
-            return row.values[static_cast<std::size_t>(column) - 1];
-        };
-        const double degrees = value(columns.angle);
-        if (!out.angles.empty() && !(degrees * units::degree > out.angles.back()))
-            throw ParseError(file.name(), row.line, 0,
-                             text("angle of attack = ", degrees, " deg after ", out.angles.back() * units::to_degrees,
-                                  "; allowed: ascending"));
-        out.angles.push_back(degrees * units::degree);
-        out.lift.push_back(value(columns.lift));
-        out.drag.push_back(value(columns.drag));
-        out.moment.push_back(value(columns.moment));
-    }
-    return out;
+Polar::Table polar_table(OpenFastFile& file, const PolarColumns& columns, std::size_t part,
+                         std::vector<FileNote>& notes) {
+    return polar_of_rows(file, file.rows_after("NumAlf", part), columns, notes);
 }
 
 // Of several tables, all are at one setting of what a controller may change (UserProp, before that Ctrl).
@@ -72,13 +52,14 @@ std::size_t number_of_tables(OpenFastFile& file) {
     return tables;
 }
 
-Polar read_polar(OpenFastFile& file, const std::string& name, const PolarColumns& columns, bool all) {
+Polar read_polar(OpenFastFile& file, const std::string& name, const PolarColumns& columns, bool all,
+                 std::vector<FileNote>& notes) {
     const std::size_t count = all ? number_of_tables(file) : 1;
     std::vector<Polar::Table> tables;
     tables.reserve(count);
     for (std::size_t part = 0; part < count; ++part) {
         const double before = tables.empty() ? 0 : tables.back().reynolds;
-        tables.push_back(polar_table(file, columns, part));
+        tables.push_back(polar_table(file, columns, part, notes));
         if (count == 1) break;
         check_user_property(file, part);
         tables.back().reynolds = reynolds_number(file, part, before);
@@ -188,7 +169,7 @@ UnsteadyProfile made_profile(OpenFastFile& file, const Polar& polar, UnsteadyDat
 UnsteadyProfile read_aerodyn_profile(const std::filesystem::path& path, const PolarColumns& columns, bool all,
                                      ProfileModel model, std::vector<FileNote>& notes) {
     OpenFastFile file = OpenFastFile::read(path);
-    const Polar polar = read_polar(file, path.filename().string(), columns, all);
+    const Polar polar = read_polar(file, path.filename().string(), columns, all, notes);
     UnsteadyData data(file);
     UnsteadyProfile profile = made_profile(file, polar, data, model);
     if (profile.is_unsteady() && data.is_included()) {

@@ -3,17 +3,12 @@
 #pragma once
 
 #include "elements/aerodynamics/unsteady_profile.hpp"
-#include "turbines/readers/turbine_file.hpp"
+#include "turbines/readers/detail/polar_rows.hpp"
 
 #include <filesystem>
 #include <vector>
 
 namespace cardan::turbines {
-
-/// Which column of the polars holds what, from 1; 0: none.
-struct PolarColumns {
-    int angle, lift, drag, moment;
-};
 
 /// A polar and, from its first table, what AeroDyn's four states (UA_Mod 4) and Oye's one (6) need: C_lalpha, alpha0,
 /// alphaUpper, alphaLower, Cd0, A1, A2, b1, b2, T_p, T_f0. What is missing, or "default", is found as AeroDyn does

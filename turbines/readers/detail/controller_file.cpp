@@ -1,43 +1,104 @@
 #include "turbines/readers/detail/controller_file.hpp"
 
+#include "mbs/base/error.hpp"
 #include "mbs/base/text.hpp"
+#include "turbines/readers/detail/openfast_words.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 namespace cardan::turbines {
 
-std::vector<double> ControllerFile::numbers(std::string_view keyword) const {
-    std::istringstream lines = text_reader(text_);
-    for (std::string line; std::getline(lines, line);) {
+namespace {
+
+constexpr auto rosco_keywords = std::to_array<std::string_view>(
+    {"f_lpfcornerfreq", "pc_finepit",     "pc_gs_angles",     "pc_gs_ki",       "pc_gs_kp",
+     "pc_gs_n",         "pc_maxpit",      "pc_maxrat",        "pc_minpit",      "pc_refspd",
+     "vs_constpower",   "vs_geneff",      "vs_maxrat",        "vs_maxtq",       "vs_minomspd",
+     "vs_rgn2k",        "vs_rtpwr",       "vs_rttq",          "vs_tsropt",      "ps_mode",
+     "ps_windspeeds",   "ps_bldpitchmin", "ps_bldpitchmin_n", "we_bladeradius", "we_gearboxratio"});
+
+// Empty: no entry.
+std::string keyword_of(std::string_view remark) {
+    const std::vector<std::string_view> words = words_of(remark);
+    if (words.empty()) return {};
+    const std::string word = lower_case(words.front());
+    return std::ranges::find(rosco_keywords, word) == rosco_keywords.end() ? std::string() : word;
+}
+
+}  // namespace
+
+ControllerFile::ControllerFile(std::string_view text, std::string name) : name_(std::move(name)) {
+    for (int number = 1; !text.empty(); ++number) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
         const std::size_t mark = line.find('!');
-        if (mark == std::string::npos) continue;
-        std::string word;
-        if (!(text_reader(line.substr(mark + 1)) >> word) || word != keyword) continue;
-        std::vector<double> values;
-        std::istringstream before = text_reader(line.substr(0, mark));
-        for (double value = 0; before >> value && std::isfinite(value);) values.push_back(value);
-        return values;
+        if (mark == std::string_view::npos) continue;
+        const std::string keyword = keyword_of(line.substr(mark + 1));
+        const std::vector<std::string_view> words = words_of(line.substr(0, mark));
+        if (keyword.empty() || words.empty()) continue;
+        const auto [at, is_new] = entries_.try_emplace(keyword, Entry{{words.begin(), words.end()}, number});
+        if (!is_new)
+            throw ParseError(name_, number, 0, cardan::text(keyword, " is there already, in line ", at->second.line));
     }
-    return {};
+}
+
+void ControllerFile::fail(std::string_view keyword, std::string_view what) const {
+    throw ParseError(name_, entry_of(keyword).line, 0, text(keyword, ": ", what));
+}
+
+const ControllerFile::Entry& ControllerFile::entry_of(std::string_view keyword) const {
+    const auto found = entries_.find(lower_case(keyword));
+    if (found == entries_.end())
+        throw ParseError(name_, 1, 0, text("no line with the keyword ", keyword, " behind its value and a !"));
+    return found->second;
+}
+
+double ControllerFile::number_in(std::string_view keyword, const Entry& entry, std::size_t i) const {
+    const std::optional<double> value = fortran_number(entry.words[i]);
+    if (!value)
+        throw ParseError(name_, entry.line, 0, text(keyword, ": '", entry.words[i], "' is not a finite number"));
+    return *value;
 }
 
 std::optional<double> ControllerFile::number(std::string_view keyword) const {
-    const std::vector<double> values = numbers(keyword);
-    if (values.empty()) return std::nullopt;
-    return values.front();
+    const auto found = entries_.find(lower_case(keyword));
+    if (found == entries_.end()) return std::nullopt;
+    return number_in(keyword, found->second, 0);
+}
+
+double ControllerFile::required(std::string_view keyword) const {
+    return number_in(keyword, entry_of(keyword), 0);
+}
+
+std::vector<double> ControllerFile::numbers(std::string_view keyword, std::size_t count) const {
+    const Entry& entry = entry_of(keyword);
+    if (entry.words.size() < count) fail(keyword, text(count, " numbers expected, found ", entry.words.size()));
+    std::vector<double> values;
+    values.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) values.push_back(number_in(keyword, entry, i));
+    return values;
 }
 
 namespace {
 
-// Empty: there is none that counts.
+// Over the wind; empty: there is none.
 std::vector<PitchAtWind> least_pitch(const ControllerFile& file) {
-    const std::vector<double> winds = file.numbers("PS_WindSpeeds"), pitch = file.numbers("PS_BldPitchMin");
-    if (file.number("PS_Mode").value_or(0) == 0 || winds.size() != pitch.size()) return {};
+    constexpr auto winds_of = "PS_WindSpeeds", pitch_of = "PS_BldPitchMin", count_of = "PS_BldPitchMin_N";
+    if (file.number("PS_Mode").value_or(0) == 0) return {};
+    const auto given = file.number(count_of);
+    if (!given && file.count(winds_of) != file.count(pitch_of))
+        file.fail(pitch_of, text(file.count(pitch_of), " numbers for ", file.count(winds_of), " wind speeds"));
+    const double announced = given.value_or(static_cast<double>(file.count(winds_of)));
+    if (!(announced >= 1 && announced <= 1e6)) file.fail(count_of, text(announced, "; allowed: 1 ... 1e6"));
+    const auto count = static_cast<std::size_t>(announced);
+    const std::vector<double> winds = file.numbers(winds_of, count), pitch = file.numbers(pitch_of, count);
     std::vector<PitchAtWind> out;
-    out.reserve(winds.size());
-    for (std::size_t i = 0; i < winds.size(); ++i) {
-        if (i > 0 && !(winds[i] > winds[i - 1])) return {};
+    out.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0 && !(winds[i] > winds[i - 1]))
+            file.fail(winds_of, text(winds[i], " m/s after ", winds[i - 1], "; allowed: ascending"));
         out.push_back({winds[i], pitch[i]});
     }
     return out;
@@ -48,8 +109,12 @@ std::vector<PitchAtWind> least_pitch(const ControllerFile& file) {
 FileOperation operation_of(const ControllerFile& file) {
     const auto of = [&](const char* keyword) { return file.number(keyword).value_or(0); };
     FileOperation out;
-    const double efficiency = of("VS_GenEff") / 100, gears = of("WE_GearboxRatio");
-    if (efficiency > 0 && efficiency <= 1 && of("VS_RtPwr") > 0) out.rated_power = of("VS_RtPwr") / efficiency;
+    const double efficiency = of("VS_GenEff") / 100, gears = of("WE_GearboxRatio"), electrical = of("VS_RtPwr"),
+                 on_shaft = of("VS_RtTq") * of("PC_RefSpd");
+    if (efficiency > 0 && efficiency <= 1 && electrical > 0)
+        out.rated_power = electrical / efficiency;
+    else if (on_shaft > 0)
+        out.rated_power = on_shaft;
     if (gears > 0 && of("VS_MinOMSpd") > 0) out.least_speed = of("VS_MinOMSpd") / gears;
     if (of("VS_TSRopt") > 0) out.tip_speed_ratio = of("VS_TSRopt");
     out.least_pitch = least_pitch(file);
@@ -70,11 +135,18 @@ ControllerGains gains_of(const ControllerFile& file) {
     out.min_pitch = file.number("PC_MinPit").value_or(0);
     out.max_pitch = of("PC_MaxPit");
     out.max_pitch_rate = of("PC_MaxRat");
-    const std::vector<double> pitch = file.numbers("PC_GS_angles"), proportional = file.numbers("PC_GS_KP"),
-                              integral = file.numbers("PC_GS_KI");
-    if (pitch.size() != proportional.size() || pitch.size() != integral.size()) return out;
-    for (std::size_t i = 0; i < pitch.size(); ++i)
+    constexpr auto angles = "PC_GS_angles";
+    if (!file.number(angles)) return out;
+    const double announced = file.number("PC_GS_n").value_or(static_cast<double>(file.count(angles)));
+    if (!(announced >= 1 && announced <= 1e6)) file.fail("PC_GS_n", text(announced, "; allowed: 1 ... 1e6"));
+    const auto count = static_cast<std::size_t>(announced);
+    const std::vector<double> pitch = file.numbers(angles, count), proportional = file.numbers("PC_GS_KP", count),
+                              integral = file.numbers("PC_GS_KI", count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0 && !(pitch[i] > pitch[i - 1]))
+            file.fail(angles, text(pitch[i], " rad after ", pitch[i - 1], "; allowed: ascending"));
         out.pitch_gains.push_back({pitch[i], -proportional[i], -integral[i]});
+    }
     return out;
 }
 
@@ -93,10 +165,17 @@ std::vector<PitchAt> pitch_over_speed(const std::vector<PitchAtWind>& winds, dou
 }
 
 std::vector<PitchAt> minimum_pitch(const ControllerFile& file) {
-    const auto of = [&](const char* keyword) { return file.number(keyword).value_or(0); };
-    const double ratio = of("VS_TSRopt"), radius = of("WE_BladeRadius"), gears = of("WE_GearboxRatio");
-    if (!(ratio > 0) || !(radius > 0) || !(gears > 0)) return {};
-    return pitch_over_speed(least_pitch(file), ratio, radius, of("VS_MinOMSpd") / gears, of("PC_RefSpd") / gears);
+    const std::vector<PitchAtWind> over_wind = least_pitch(file);
+    if (over_wind.empty()) return {};
+    const auto positive = [&](const char* keyword) {
+        const double value = file.required(keyword);
+        if (!(value > 0)) file.fail(keyword, text(value, "; allowed: > 0"));
+        return value;
+    };
+    const double ratio = positive("VS_TSRopt"), radius = positive("WE_BladeRadius"),
+                 gears = positive("WE_GearboxRatio");
+    return pitch_over_speed(over_wind, ratio, radius, file.number("VS_MinOMSpd").value_or(0) / gears,
+                            positive("PC_RefSpd") / gears);
 }
 
 }  // namespace cardan::turbines

@@ -4,6 +4,7 @@
 
 #include "turbines/readers/turbine_file.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,17 +12,37 @@
 
 namespace cardan::turbines {
 
+/// Commas, tabs and blanks separate, numbers are Fortran's, keywords count in any case. As ROSCO does, readers take the
+/// numbers they expect; what stands behind them is a remark.
 class ControllerFile {
 public:
-    explicit ControllerFile(std::string text) : text_(std::move(text)) {}
+    /// Of any text: entries are the lines with something before the "!" and one of the keywords that are read here as
+    /// the first word behind it. A file without such lines is another controller's, which may be anything.
+    /// @param name  for messages
+    /// @throws ParseError for a keyword that occurs twice
+    ControllerFile(std::string_view text, std::string name);
 
-    /// None: another controller's file, which may be anything.
-    std::optional<double> number(std::string_view keyword) const;
-    /// All numbers of the line; empty: none.
-    std::vector<double> numbers(std::string_view keyword) const;
+    [[nodiscard]] bool is_rosco() const { return !entries_.empty(); }
+    /// None: there is no such entry.  @throws ParseError with file and line unless it begins with a number
+    [[nodiscard]] std::optional<double> number(std::string_view keyword) const;
+    /// @throws ParseError unless there is one
+    [[nodiscard]] double required(std::string_view keyword) const;
+    /// The first so many.  @throws ParseError unless the entry has them
+    [[nodiscard]] std::vector<double> numbers(std::string_view keyword, std::size_t count) const;
+    /// How many numbers or words.  @throws ParseError unless there is such an entry
+    [[nodiscard]] std::size_t count(std::string_view keyword) const { return entry_of(keyword).words.size(); }
+    [[noreturn]] void fail(std::string_view keyword, std::string_view what) const;
 
 private:
-    std::string text_;
+    struct Entry {
+        std::vector<std::string> words;
+        int line;
+    };
+    [[nodiscard]] const Entry& entry_of(std::string_view keyword) const;
+    [[nodiscard]] double number_in(std::string_view keyword, const Entry& entry, std::size_t i) const;
+
+    std::string name_;
+    std::map<std::string, Entry> entries_;  // by keyword in lower case
 };
 
 /// Where the blades stand below rated power, over the rotor speed: at their least pitch for the wind at which a rotor
@@ -31,12 +52,15 @@ private:
 std::vector<PitchAt> pitch_over_speed(const std::vector<PitchAtWind>& winds, double tip_speed_ratio, double radius,
                                       double least, double most);
 
-/// The least pitch over rotor speed (PS_BldPitchMin over PS_WindSpeeds), by pitch_over_speed(). The
-/// rotor turns at the tip speed ratio VS_TSRopt, not slower than VS_MinOMSpd and not faster than PC_RefSpd. Empty: the
-/// file has no such schedule (PS_Mode), or not all that it takes.
+/// The least pitch over rotor speed (PS_BldPitchMin over PS_WindSpeeds), by pitch_over_speed(). The rotor turns at
+/// the tip speed ratio VS_TSRopt, not slower than VS_MinOMSpd and not faster than PC_RefSpd. Empty: the file has no
+/// such schedule (PS_Mode).
+/// @throws ParseError for a schedule that is not whole (fewer numbers than PS_BldPitchMin_N, winds that do not ascend,
+/// no VS_TSRopt ...)
 std::vector<PitchAt> minimum_pitch(const ControllerFile& file);
 
-/// VS_RtPwr over VS_GenEff, VS_MinOMSpd, VS_TSRopt, PS_BldPitchMin over PS_WindSpeeds.
+/// VS_RtPwr over VS_GenEff, or VS_RtTq at PC_RefSpd; VS_MinOMSpd, VS_TSRopt, PS_BldPitchMin over PS_WindSpeeds.
+/// @throws ParseError as minimum_pitch()
 FileOperation operation_of(const ControllerFile& file);
 
 /// Gains and limits of pitch and torque. Gains that lower the pitch as the speed rises, as ROSCO has them, are positive

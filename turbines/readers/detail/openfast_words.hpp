@@ -9,8 +9,12 @@
 
 namespace cardan::turbines {
 
-/// With Fortran's exponents D and d, and a plus sign. Nothing if it is not one finite number.
+/// With Fortran's exponents D and d, those without a letter (4.0+07), and a plus sign. Nothing if it is not one finite
+/// number.
 std::optional<double> fortran_number(std::string_view word);
+
+/// What blanks, tabs and commas separate.
+std::vector<std::string_view> words_of(std::string_view line);
 
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& words);
