@@ -78,7 +78,7 @@ Generator of_torque_law(OpenFastFile& file) {
 SlippingGenerator slipping_generator(OpenFastFile& file) {
     const auto of = [&file](const char* keyword) { return file.number_or(keyword, 0); };
     const double model = of("GenModel");
-    if (model == 1 && of("SIG_SySp") > 0 && of("SIG_SlPc") > 0) {
+    if (model == 1 && of("SIG_SySp") > 0 && of("SIG_SlPc") > 0 && !is_placeholder(file, "SIG_SySp")) {
         const double speed = of("SIG_SySp") * units::rpm;
         return {speed, of("SIG_RtTq") / (speed * of("SIG_SlPc") / 100)};
     }
