@@ -11,7 +11,8 @@ namespace cardan::turbines {
 
 /// The machine as YAML text, but for what its readers noted. Numbers have enough digits to be read back exactly:
 /// parse_machine(to_yaml(m)) computes what m does, bit for bit.
-/// @throws InputError for NaN and for beam lines without a table (see table_of(); sampled() makes one)
+/// @throws InputError for NaN, for beam lines without a table (see table_of(); sampled() makes one), and for a machine
+/// that is not whole (TurbineDescription::missing)
 std::string to_yaml(const Machine& machine);
 /// @throws FileError, InputError
 void write_machine(const Machine& machine, const std::filesystem::path& path);
