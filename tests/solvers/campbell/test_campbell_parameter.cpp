@@ -2,6 +2,7 @@
 // their component modes, input that is refused, what is kept of a sweep that was ended.
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/text.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
@@ -190,6 +191,50 @@ TEST_CASE("campbell over a parameter: a sweep that is ended keeps points and par
     CHECK(none.points.empty());
     CHECK(none.parameters.empty());
     CHECK(table(none) == "no rotor speeds computed\n");
+}
+
+TEST_CASE("campbell over a parameter: machines that are made one by one are those given at once", "[property]") {
+    const Machines machines = hinged(2, {2000, 2500, 3000});
+    const std::vector<CampbellCase> cases = machines.cases();
+    const CampbellOptions options = by(CampbellMethod::floquet);
+    std::vector<std::string> order;
+    CampbellOptions told = options;
+    told.progress = [&](int done, int) { order.push_back(text("modes ", done)); };
+    const NextCampbellCase next = [&, i = std::size_t(0)]() mutable -> std::optional<CampbellCase> {
+        if (i == cases.size()) return std::nullopt;
+        order.push_back(text("machine ", i + 1));
+        return cases[i++];
+    };
+    const Campbell one_by_one = campbell(next, cases.size(), "stiffness, N m/rad", told);
+    const Campbell at_once = machines.diagram(options);
+    CHECK(order == std::vector<std::string>{"machine 1", "modes 1", "machine 2", "modes 2", "machine 3", "modes 3"});
+    CHECK(table(one_by_one) == table(at_once));
+    CHECK(one_by_one.parameters == at_once.parameters);
+    CHECK(one_by_one.complete);
+    const Campbell none = campbell([]() -> std::optional<CampbellCase> { return std::nullopt; }, 0, "x", options);
+    CHECK(none.points.empty());
+    CHECK_FALSE(none.complete);
+    check_refused([&] { campbell(next, 3, "x", {}); }, {"method", "automatic"});
+}
+
+TEST_CASE("campbell over a parameter: an instability is told with its place on the axis", "[property]") {
+    // Flaps that are driven by their own rates; coordinates: spin, flaps.
+    SmallRotorSpec spec{.stiffness = {2000, 2000}};
+    spec.more = [](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
+        forces.add_user({.name = "push",
+                         .force =
+                             [](const ForceInput& at, VectorOut Q) {
+                                 for (const int i : {1, 2}) Q(i) += 20 * at.qd(i);
+                             },
+                         .jacobian =
+                             [](const ForceInput&, MatrixOut, MatrixOut dQ_dqd) {
+                                 for (const int i : {1, 2}) dQ_dqd(i, i) += 20;
+                             }});
+    };
+    const SmallRotor rotor = small_rotor(spec);
+    const std::vector<CampbellCase> cases{{&rotor.system, &rotor.map, 2, 7}};
+    const Campbell d = campbell(cases, "wind speed, m/s", by(CampbellMethod::floquet));
+    CHECK_THAT(d.warning, Catch::Contains("unstable at wind speed 7 m/s, 19.1 rpm: a motion at"));
 }
 
 TEST_CASE("campbell over the rotor speed of machines that differ: closed forms, and one machine is a plain sweep",

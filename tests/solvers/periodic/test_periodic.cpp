@@ -302,6 +302,24 @@ TEST_CASE("periodic state: resonance without damping has none, and the reason is
     CHECK(stopped.message.find("limit of iterations") != std::string::npos);
 }
 
+TEST_CASE("harmonic balance: it is cancelled at any azimuth, and says so", "[property]") {
+    const auto rotor = heavy_rotor();
+    int asked = 0;
+    PeriodicOptions options = at_speed(4, 4);
+    options.cancelled = [&] { return ++asked > 1'000'000; };
+    CHECK(harmonic_balance(rotor.system, rotor.map.spin, options).converged);
+    const int all = asked;
+    REQUIRE(all > 2 * 20);  // evaluations at 4 (harmonics + 1) azimuths each
+    for (const int wanted : {1, all / 2, all}) {
+        asked = 0;
+        options.cancelled = [&] { return ++asked >= wanted; };
+        const PeriodicSteadyState state = harmonic_balance(rotor.system, rotor.map.spin, options);
+        CHECK(asked == wanted);
+        CHECK_FALSE(state.converged);
+        CHECK_THAT(state.message, Catch::Contains("4 rad/s: it was cancelled"));
+    }
+}
+
 TEST_CASE("periodic state: a sweep follows the upper branch of a hardening resonance", "[property]") {
     const Slider slider;
     // The load is fixed in time, not in azimuth, so the wheel must turn at its frequency: F cos(psi) by the wheel.

@@ -2,9 +2,11 @@
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 using namespace cardan;
@@ -81,4 +83,28 @@ TEST_CASE("Campbell pictures: multiples of the rotor speed follow it over anothe
     const double slow = distance(1), fast = distance(2);
     CHECK(slow > 10);
     CHECK(fast == Approx(2 * slow).margin(0.3));  // a pixel has one decimal
+}
+
+TEST_CASE("Campbell pictures: diagrams over each other, the others as points, with all names", "[property]") {
+    const Campbell diagram = without_doubt();
+    Campbell fast = diagram_of(small_rotor({.stiffness = {4000, 4000, 4000}, .damping = 3}), {1, 2, 5});
+    const std::string cross = "#gpPt0' transform";  // +
+    CHECK(count(drawn(diagram), cross) == 0);
+    const CampbellPlotOptions both{.others = {{"stiff", &fast}}, .name = "soft"};
+    const std::string svg = drawn(diagram, both);
+    CHECK_THAT(svg, Contains("lines: soft") && Contains(">stiff<"));
+    // In both panels a point for each frequency and damping, and one in the legend.
+    std::size_t points = 0;
+    for (const Branch& branch : fast.branches)
+        for (std::size_t i = 0; i < fast.points.size(); ++i) {
+            const CampbellMode* mode = fast.mode(branch, i);
+            if (!mode) continue;
+            points += mode->kind() != FloquetKind::aperiodic && std::isfinite(fast.damping_ratio(branch, i)) ? 2 : 1;
+        }
+    CHECK(count(svg, cross) == static_cast<int>(points) + 1);
+    CHECK_THAT(svg, Contains(">45<"));  // rev/min, to the last speed of both
+    fast.parameter = "wind speed, m/s";
+    testing::check_refused([&] { drawn(diagram, both); }, {"axis of stiff", "wind speed", "rotor speed, rev/min"});
+    const CampbellPlotOptions many{.others = std::vector<OtherDiagram>(5, {"another", &diagram}), .name = "a"};
+    testing::check_refused([&] { drawn(diagram, many); }, {"others = 5", "at most 4"});
 }

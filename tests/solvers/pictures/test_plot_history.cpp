@@ -287,3 +287,30 @@ TEST_CASE("history pictures: bad input is refused with place, value and limit", 
     CHECK_FALSE(std::filesystem::exists(path));
     CHECK_THROWS_AS(plot(history(), {{{"order"}}}, folder.path / "a.bmp"), FileError);
 }
+
+TEST_CASE("plot: several histories over each other, each with its name, from the first time to the last",
+          "[property]") {
+    const Folder folder;
+    const History all = history();
+    History late = all;
+    for (double& time : late.time) time += 5;
+    late.channels[0].name = "tip";
+    late.channels[5].units = "N";
+    const std::vector<NamedHistory> both{{"before", &all}, {"after", &late}};
+    plot(both, one_panel_each({"tip edge", "tip flap", "tip"}), folder / "both.svg");
+    const std::string svg = bytes_of(folder / "both.svg");
+    for (const char* label : {"before: tip edge", "after: tip edge", "before: tip flap", "after: tip"})
+        CHECK_THAT(svg, Contains(label));
+    CHECK_THAT(svg, !Contains("after: tip flap") && !Contains("before: tip<"));
+    CHECK_THAT(svg, Contains(">25<"));  // the last time
+    check_refused([&] { plot(both, {{{"gear"}}}, folder / "x.svg"); }, {"channel = gear", "any of them"});
+    check_refused([&] { plot(both, {{{"RootMyb1"}}}, folder / "x.svg"); }, {"units of the channel"});
+    check_refused([&] { plot(std::vector<NamedHistory>{}, {{{"tip"}}}, folder / "x.svg"); }, {"number of histories"});
+    // One alone is the picture of one.
+    const std::vector<NamedHistory> one{{"before", &all}};
+    plot(one, one_panel_each({"tip edge"}), folder / "one.svg");
+    plot(all, one_panel_each({"tip edge"}), folder / "alone.svg");
+    CHECK(bytes_of(folder / "one.svg") == bytes_of(folder / "alone.svg"));
+    plot_spectra(both, one_panel_each({"tip edge"}), folder / "spectra.svg");
+    CHECK_THAT(bytes_of(folder / "spectra.svg"), Contains("after: tip edge"));
+}

@@ -7,6 +7,7 @@
 #include "turbines/readers/elastodyn.hpp"
 #include "turbines/yaml/windio.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -81,6 +82,20 @@ TEST_CASE("elastodyn: a hub that teeters has the springs and dampers that act fr
     CHECK(stops.description.hub.teeter->bearing.hold == Bearing::Hold::free);
     CHECK(stops.description.hub.teeter->bearing.damping == 0);
     CHECK(test::has_note(stops.notes, "TeetSStP", "a stop"));
+    // What a note means for results.
+    const auto kind = [&](const std::string& keyword) {
+        const auto found = std::ranges::find_if(
+            stops.notes, [&](const FileNote& note) { return note.keyword.find(keyword) != std::string::npos; });
+        REQUIRE(found != stops.notes.end());
+        return found->kind;
+    };
+    CHECK(kind("TeetSStP") == FileNote::Kind::left_out);
+    CHECK(kind("FlStTunr(2)") == FileNote::Kind::left_out);
+    CHECK(kind("OutList") == FileNote::Kind::unused);
+    for (const FileNote& note : stops.notes) {
+        const std::size_t listed = static_cast<std::size_t>(std::ranges::count(note.keyword, ',')) + 1;
+        CHECK(note.entries() == (note.line == 0 ? listed : 1));
+    }
     CHECK(test::has_note(stops.notes, "TeetDmpP", "beyond an angle"));
     model.replace(elastodyn_file, "0   HubIner_Teeter", "5   HubIner_Teeter");
     CHECK_THAT(message_of([&] { (void)read_elastodyn(model / elastodyn_file); }),

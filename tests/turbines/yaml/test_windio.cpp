@@ -49,6 +49,9 @@ TEST_CASE("windio: both versions of one machine are read as the same", "[crossch
     CHECK(test::has_note(one.notes, "torsional stiffness", "rigid"));
     CHECK(test::has_note(one.notes, "components.blade.internal_structure_2d_fem", "not used"));
     CHECK(test::has_note(one.notes, "components.hub.drag_coefficient", "not used"));
+    for (const FileNote& note : one.notes)
+        CHECK((note.kind == FileNote::Kind::unused) == (note.why.find("not used") != std::string::npos ||
+                                                        note.why.find("without meaning") != std::string::npos));
     CHECK(test::has_note(one.notes, "environment", "without meaning"));
     CHECK(test::has_note(two.notes, "components.drivetrain.outer_shape.cd", "not used"));
     CHECK(test::has_note(two.notes, "components.yaw.elastic_properties.mass", "part of the nacelle"));
