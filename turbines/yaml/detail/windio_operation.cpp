@@ -66,7 +66,7 @@ private:
             take_speed(most->number() * file_.rotor_speed(), most->path());
     }
     // Tip speeds are those of nominal radii: the IEA 15 MW machine's 95 m/s and 7.56 rpm belong to 120 m, and its axes
-    // make 121.1 m.
+    // make 120.8 m.
     void limit_tip_speed(const YamlNode& tip, const std::optional<YamlNode>& limit) {
         constexpr double nominal = 0.01;
         if (limit && out_.rotor_speed * radius_ <= (1 + nominal) * tip.number()) return;
