@@ -29,7 +29,7 @@ namespace {
 struct CampbellArguments {
     MachineOptions machine;
     VibrationArguments air;
-    std::string rpm, pitch_schedule, out;
+    std::string rpm, pitch_schedule, like, out;
     std::optional<double> max_frequency;
     bool air_roots = false;
 };
@@ -46,6 +46,7 @@ void declare(CommandLine& app, CampbellArguments& a) {
     app.add_option(
         "--max-frequency", a.max_frequency,
         "follow modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)");
+    add_like(app, a.like);
     app.add_flag("--gravity", a.machine.gravity, "with gravity");
     add_vibration_options(app, a.air);
     app.add_flag("--floquet", a.air.floquet,
@@ -88,6 +89,7 @@ turbines::CampbellSettings settings_of(const CampbellArguments& a) {
     s.machine = numbers_of(a.machine);
     s.gravity = a.machine.gravity;
     s.max_frequency_hz = a.max_frequency;
+    s.like = a.like;
     s.air = settings_of(a.air.wind.air);
     s.operation = operation_of(a.air.wind);
     s.vibration = vibration_of(a.air);
@@ -113,6 +115,7 @@ void keep_taken(const turbines::CampbellSettings& taken, CampbellArguments& a) {
     if (taken.winds.empty() && a.rpm.empty()) a.rpm = words_of(taken.rotor_speeds);
     a.pitch_schedule = schedule_words(taken.pitch_schedule);
     a.max_frequency = taken.max_frequency_hz;
+    a.like = taken.like.string();
 }
 
 void write(const turbines::CampbellDiagram& diagram, const CampbellArguments& a) {

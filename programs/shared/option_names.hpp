@@ -40,6 +40,7 @@ inline std::string in_options(std::string text) {
         {"CampbellSettings::rotor_speeds", "--rpm"},
         {"CampbellSettings::pitch_schedule", "--pitch-schedule"},
         {"CampbellSettings::max_frequency_hz", "--max-frequency"},
+        {"CampbellSettings::like", "--like"},
         {"CampbellSettings::harmonics", "--harmonics"},
         {"OperationSettings::rated_power", "--rated-power"},
         {"LinearModelSettings::rotor_speed", "--rpm"},

@@ -70,7 +70,7 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
     const std::string name = parameter.empty() ? "rotor speed [rad/s]" : parameter;
     if (parameter.empty()) cases = by_speed;
     check_cases(cases, name);
-    if (options.neighbour)
+    if (options.neighbour && !parameter.empty())
         throw InputError("Campbell diagram", text("neighbour of a diagram over ", name), "given",
                          "none: modes are followed from one machine to the next");
     const MethodChoice choice = choose_method(cases, name, options);
