@@ -72,7 +72,8 @@ private:
     std::string usual_kind(const Branch& branch) const;
     Matrix scores(const std::vector<Branch>& branches) const;
     std::vector<Naming> by_sums(const std::vector<Branch>& branches) const;
-    HandOver::Name at_rest(std::size_t point, int mode) const;
+    using Names = std::vector<const Label*>;  // that are certain, by mode; null: none
+    HandOver::Name at_rest(const std::vector<CampbellMode>& modes, const Names& names, int mode) const;
     void hand_over(std::vector<Branch>& branches, std::vector<Naming>& namings, const HandOver::Mac& mac) const;
     const Label* own_label(const Branch& partner) const;
     void continue_names(const std::vector<Branch>& branches, Matrix& score) const;
@@ -151,9 +152,14 @@ std::vector<Naming> BranchNames::by_sums(const std::vector<Branch>& branches) co
 
 void BranchNames::hand_over(std::vector<Branch>& branches, std::vector<Naming>& namings,
                             const HandOver::Mac& mac) const {
-    const auto by_energy = [this](std::size_t point, int index) -> HandOver::Name {
-        if (points_[point].rotor_speed == 0) return at_rest(point, index);
-        return {labels_.certain(points_[point].rotor_speed, entry(points_[point].modes, index))};
+    std::vector<Names> names;
+    for (const CampbellPoint& point : points_) {
+        Names& own = names.emplace_back();
+        for (const CampbellMode& mode : point.modes) own.push_back(labels_.certain(point.rotor_speed, mode));
+    }
+    const auto by_energy = [&](std::size_t point, int index) -> HandOver::Name {
+        if (points_[point].rotor_speed == 0) return at_rest(points_[point].modes, names[point], index);
+        return {entry(names[point], index)};
     };
     const auto by_neighbour = [this](std::size_t point, int index) -> HandOver::Name {
         const Branch* const there = neighbour_->certain(point, index);
@@ -166,14 +172,13 @@ void BranchNames::hand_over(std::vector<Branch>& branches, std::vector<Naming>& 
 }
 
 // As the rotor begins to turn the lower of a pair whirls backward, the higher forward.
-HandOver::Name BranchNames::at_rest(std::size_t point, int mode) const {
+HandOver::Name BranchNames::at_rest(const std::vector<CampbellMode>& modes, const Names& names, int mode) const {
     constexpr double same = 1e-6;
-    const std::vector<CampbellMode>& modes = points_[point].modes;
-    const Label* const own = labels_.certain(0, entry(modes, mode));
+    const Label* const own = entry(names, mode);
     if (own == nullptr || own->pattern != RotorPattern::backward) return {own};
     double other = -1;
     for (int m = 0; m < static_cast<int>(modes.size()); ++m) {
-        if (m == mode || labels_.certain(0, entry(modes, m)) != own) continue;
+        if (m == mode || entry(names, m) != own) continue;
         if (other >= 0) return {own, true};  // more than two
         other = entry(modes, m).mode.natural_hz();
     }
