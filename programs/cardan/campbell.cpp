@@ -29,7 +29,7 @@ namespace {
 struct CampbellArguments {
     MachineOptions machine;
     VibrationArguments air;
-    std::string rpm, pitch_schedule, out;
+    std::string rpm, pitch_schedule, like, out;
     std::optional<double> max_frequency;
     bool air_roots = false;
 };
@@ -47,6 +47,7 @@ void declare(CommandLine& app, CampbellArguments& a) {
            "--max-frequency", a.max_frequency,
            "follow modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)")
         .positive();
+    add_like(app, a.like);
     app.add_flag("--gravity", a.machine.gravity, "with gravity");
     const Option wind = add_vibration_options(app, a.air);
     app.add_flag("--floquet", a.air.floquet,
@@ -91,6 +92,7 @@ turbines::CampbellSettings settings_of(const CampbellArguments& a) {
     s.machine = numbers_of(a.machine);
     s.gravity = a.machine.gravity;
     s.max_frequency_hz = a.max_frequency;
+    s.like = a.like;
     s.air = settings_of(a.air.wind.air);
     s.operation = operation_of(a.air.wind);
     s.vibration = vibration_of(a.air);
@@ -116,6 +118,7 @@ void keep_taken(const turbines::CampbellSettings& taken, CampbellArguments& a) {
     if (taken.winds.empty() && a.rpm.empty()) a.rpm = words_of(taken.rotor_speeds);
     a.pitch_schedule = schedule_words(taken.pitch_schedule);
     a.max_frequency = taken.max_frequency_hz;
+    a.like = taken.like.string();
 }
 
 void write(const turbines::CampbellDiagram& diagram, const CampbellArguments& a) {

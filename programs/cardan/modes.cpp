@@ -23,7 +23,7 @@ struct ModesArguments {
     MachineOptions machine;
     double rpm = 0;
     std::optional<double> max_frequency;
-    std::string out;
+    std::string like, out;
     bool shapes = false;
 };
 
@@ -34,6 +34,7 @@ void declare(CommandLine& app, ModesArguments& a) {
     app.add_option("--max-frequency", a.max_frequency,
                    "modes up to this frequency, Hz (default: 1.3 times the third of the blade, clamped and at rest)")
         .positive();
+    add_like(app, a.like);
     app.add_flag("--gravity", a.machine.gravity, "with gravity");
     app.add_flag("--shapes", a.shapes, "draw the shapes: PREFIX/<mode>_<rpm>rpm.svg, .png");
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _modes)");
@@ -64,9 +65,10 @@ void print(const solvers::Campbell& diagram) {
     for (const solvers::Branch& branch : diagram.branches) {
         const solvers::CampbellMode* mode = diagram.mode(branch, 0);
         if (mode == nullptr) continue;
-        std::printf("%-36s %14.4f %12.4f %9.3f   %s\n", (branch.name + (branch.doubtful[0] ? " ?" : "")).c_str(),
+        const std::string& doubt = branch.doubt[0];
+        std::printf("%-36s %14.4f %12.4f %9.3f   %s%s\n", (branch.name + (branch.doubtful[0] ? " ?" : "")).c_str(),
                     diagram.natural_hz(branch, 0), diagram.damped_hz(branch, 0), 100 * diagram.damping_ratio(branch, 0),
-                    energy_in_words(diagram, *mode).c_str());
+                    energy_in_words(diagram, *mode).c_str(), doubt.empty() ? "" : text("  ? ", doubt).c_str());
     }
     std::printf("%s\n", diagram.accuracy.c_str());
     if (!diagram.warning.empty()) std::printf("\nwarning: %s\n", diagram.warning.c_str());
@@ -98,10 +100,12 @@ int run(ModesArguments& a, const CommandLine& command) {
                                                                      .machine = numbers_of(a.machine),
                                                                      .gravity = a.machine.gravity,
                                                                      .max_frequency_hz = a.max_frequency,
+                                                                     .like = a.like,
                                                                      .report = remarks_printed(a.machine.notes)});
     if (a.machine.summary) std::cout << diagram.turbine->summary() << "\n";
     keep_taken(diagram.settings.machine, a.machine);
     a.max_frequency = diagram.settings.max_frequency_hz;
+    a.like = diagram.settings.like.string();
     diagram.source = run_text("modes", command) + diagram.source;
     print(diagram);
     solvers::write_hdf5(diagram, a.out + ".h5");

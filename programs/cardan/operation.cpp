@@ -24,6 +24,13 @@ void set_pitch(const turbines::Machine& machine, MachineOptions& options, double
     options.pitch = turbines::in_unit(pitch, units::degree);
 }
 
+void add_like(CommandLine& app, std::string& file) {
+    app.add_option("--like", file,
+                   "result (.h5) of campbell or modes for a similar machine: modes have the names of those there that "
+                   "they are most like, at the rotor speeds that both have")
+        .type_name("BASE.h5");
+}
+
 std::string title_of(const solvers::Campbell& diagram) {
     return diagram.remark.empty() ? diagram.machine : text(diagram.machine, ", ", diagram.remark);
 }

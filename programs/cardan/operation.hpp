@@ -18,6 +18,9 @@ double rotor_speed(const std::optional<double>& asked_rpm, const turbines::Machi
 /// Without a pitch among the options, that of the machine at a rotor speed, rad/s, is put there, and told.
 void set_pitch(const turbines::Machine& machine, MachineOptions& options, double rotor_speed);
 
+/// --like
+void add_like(CommandLine& app, std::string& file);
+
 /// Of a picture: the machine, and what the diagram holds for.
 std::string title_of(const solvers::Campbell& diagram);
 

@@ -44,6 +44,7 @@ inline std::string in_options(std::string text) {
         {"CampbellSettings::rotor_speeds", "--rpm"},
         {"CampbellSettings::pitch_schedule", "--pitch-schedule"},
         {"CampbellSettings::max_frequency_hz", "--max-frequency"},
+        {"CampbellSettings::like", "--like"},
         {"CampbellSettings::harmonics", "--harmonics"},
         {"CampbellSettings::winds", "--wind"},
         {"OperationSettings::rated_power", "--rated-power"},

@@ -1,11 +1,14 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/assignment.hpp"
+#include "solvers/campbell/detail/hand_over.hpp"
+#include "solvers/campbell/detail/mode_labels.hpp"
 #include "solvers/campbell/detail/state_names.hpp"
 #include "solvers/campbell/detail/tracking.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -14,143 +17,43 @@ namespace cardan::solvers {
 
 namespace {
 
-constexpr double sure_pattern = 0.4;  // of the energy in its component: below it the pattern is doubtful
-constexpr double sure_blade = 0.8;    // of the energy of all blades in one of them: from there on it alone moves
 constexpr double least_share = 0.05;  // of the energy on average: below it a branch is not named so
-
-// What a branch may be named after: a component mode with a pattern, or a coordinate (several branches may be).
-struct Label {
-    int component = -1;
-    RotorPattern pattern = RotorPattern::none;
-    int harmonic = 1;
-    int row = -1;
-    double least = sure_blade;  // part of the blades' energy from which on one of them moves alone
-};
-
-// @param unequal_blades  their number, if one of them may move alone
-std::vector<Label> component_labels(const EnergyShares& energy_shares, bool whirl, int unequal_blades) {
-    std::vector<Label> labels;
-    const auto& components = energy_shares.components();
-    const RotorPattern first = whirl ? RotorPattern::backward : RotorPattern::cosine,
-                       second = whirl ? RotorPattern::forward : RotorPattern::sine;
-    for (std::size_t i = 0; i < components.size(); ++i) {
-        const int c = static_cast<int>(i);
-        if (components[i].whirls) {
-            labels.push_back({c, first});
-            labels.push_back({c, second});
-            continue;
-        }
-        if (!components[i].of_blades) {
-            labels.push_back({c, RotorPattern::none});
-            continue;
-        }
-        // Without patterns the blades are all there is to name a mode after.
-        const double least = energy_shares.without_patterns() ? 0 : sure_blade;
-        for (int blade = 1; blade <= unequal_blades; ++blade)
-            labels.push_back({c, RotorPattern::single, blade, -1, least});
-        if (energy_shares.without_patterns()) {
-            labels.push_back({c, RotorPattern::collective});
-            continue;
-        }
-        if (energy_shares.two_blades()) {
-            for (const RotorPattern pattern : {RotorPattern::symmetric, RotorPattern::antisymmetric})
-                labels.push_back({c, pattern});
-            continue;
-        }
-        labels.push_back({c, RotorPattern::collective});
-        for (int n = 1; n <= energy_shares.harmonics(); ++n) {
-            labels.push_back({c, first, n});
-            labels.push_back({c, second, n});
-        }
-        labels.push_back({c, RotorPattern::differential});
-    }
-    return labels;
-}
-
-// Number of the blades if they differ.
-int unequal_blades(const std::vector<CampbellPoint>& points) {
-    Eigen::Index most = 0;
-    for (const CampbellPoint& point : points)
-        for (const CampbellMode& mode : point.modes) most = std::max(most, mode.blade_shares.size());
-    return static_cast<int>(most);
-}
-
-// Part of the blades' energy that is in one of them, if it alone moves.
-double alone(const CampbellMode& mode, int blade, double least) {
-    const double own = blade <= mode.blade_shares.size() ? mode.blade_shares(blade - 1) : 0;
-    return own >= least ? own : 0;
-}
-
-// Share of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward get equal shares.
-double part(const CampbellMode& mode, const Label& label) {
-    if (mode.row >= 0 || label.row >= 0) return mode.row == label.row ? 1 : 0;
-    const Share& share = entry(mode.shares, label.component);
-    if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic, label.least) * share.total();
-    return share.of(label.pattern, label.harmonic);
-}
-
-// Nothing whirls at standstill: a name there holds the energy of its pair.
-double held(const CampbellPoint& point, const CampbellMode& mode, const Label& label) {
-    const bool whirls = label.pattern == RotorPattern::backward || label.pattern == RotorPattern::forward;
-    if (!whirls || point.rotor_speed != 0) return part(mode, label);
-    return part(mode, {label.component, RotorPattern::backward, label.harmonic}) +
-           part(mode, {label.component, RotorPattern::forward, label.harmonic});
-}
 
 bool is_real(FloquetKind kind) {
     return kind == FloquetKind::aperiodic || kind == FloquetKind::synchronous || kind == FloquetKind::subharmonic;
-}
-
-// "yaw (rigid)", "teeter (locked at 1 per rev and growing)", "teeter"
-std::string motion_name(const std::string& row, const std::string& kind, const std::string& number,
-                        const std::string& tendency) {
-    if (kind == "oscillation") return number.empty() ? row : text(row, " (", number, ")");
-    return text(row, " (", number, number.empty() ? "" : " ", kind, tendency.empty() ? "" : " and ", tendency, ")");
 }
 
 bool heavily_damped(const CampbellMode& mode) {
     return mode.kind() == FloquetKind::oscillation && mode.mode.damping_ratio() >= heavy_damping;
 }
 
-class Naming {
+class BranchNames {
 public:
-    Naming(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
-           const std::vector<std::string>& rows, bool whirl, NeighbourNames* neighbour)
+    BranchNames(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
+                const std::vector<std::string>& rows, bool whirl, NeighbourNames* neighbour)
         : points_(points),
           energy_shares_(energy_shares),
           rows_(rows),
           neighbour_(neighbour),
-          labels_(component_labels(energy_shares, whirl, unequal_blades(points))) {}
+          labels_(points, energy_shares, rows, whirl) {}
 
-    std::vector<Branch> name(std::vector<Branch> branches) {
+    /// @param mac  null: modes stay on their curves, HandOver
+    std::vector<Branch> name(std::vector<Branch> branches, const HandOver::Mac& mac) {
         for (const Branch& branch : branches)
-            if (const int row = usual_row(branch); row >= 0) labels_.push_back({.row = row});
-        if (labels_.empty()) {  // nothing is elastic
-            for (Branch& branch : branches) set(branch, {.row = moving_row(branch)});
+            if (const int row = usual_row(branch); row >= 0) labels_.add_row(row);
+        if (labels_.all().empty()) {  // nothing is elastic
+            for (Branch& branch : branches) set(branch, {{.row = moving_row(branch)}});
             name_motions(branches);
             return branches;
         }
         if (neighbour_) neighbour_->pair(branches);
-        Matrix score = scores(branches);
-        if (neighbour_) continue_names(branches, score);
-        const std::vector<int> label_of = assign(score);
-        std::vector<Eigen::Index> others;
-        for (Eigen::Index b = 0; b < score.rows(); ++b) {
-            Branch& branch = entry(branches, b);
-            const int label = entry(label_of, b);
-            if (label >= 0 && score(b, label) >= least_share * length(branch))
-                set(branch, entry(labels_, label));
-            else
-                others.push_back(b);
-        }
-        for (const Eigen::Index b : others) {
-            Eigen::Index most = 0;
-            score.row(b).maxCoeff(&most);
-            set(entry(branches, b), entry(labels_, most));
-        }
-        name_others(branches, others);
+        std::vector<Naming> namings = by_sums(branches);
+        if (mac) hand_over(branches, namings, mac);
+        for (std::size_t b = 0; b < branches.size(); ++b) set(branches[b], namings[b]);
+        name_others(branches, namings);
         name_motions(branches);
         if (neighbour_) doubt_by_neighbour(branches);
+        std::erase_if(branches, [](const Branch& branch) { return length(branch) == 0; });
         return branches;
     }
 
@@ -168,27 +71,29 @@ private:
     int usual_row(const Branch& branch) const;
     std::string usual_kind(const Branch& branch) const;
     Matrix scores(const std::vector<Branch>& branches) const;
-    std::size_t own_label(const Branch& partner) const;
+    std::vector<Naming> by_sums(const std::vector<Branch>& branches) const;
+    using Names = std::vector<const Label*>;  // that are certain, by mode; null: none
+    HandOver::Name at_rest(const std::vector<CampbellMode>& modes, const Names& names, int mode) const;
+    void hand_over(std::vector<Branch>& branches, std::vector<Naming>& namings, const HandOver::Mac& mac) const;
+    const Label* own_label(const Branch& partner) const;
     void continue_names(const std::vector<Branch>& branches, Matrix& score) const;
     void doubt_by_neighbour(std::vector<Branch>& branches) const;
     bool continues(const Branch& branch, const Branch& partner) const;
-    Label strongest(std::size_t point, const CampbellMode& mode, const Label& own) const;
-    std::string label_name(const Label& label, const CampbellMode& mode) const;
-    void set(Branch& branch, const Label& label) const;
-    double own_pattern(const CampbellMode& mode, const Label& label) const;
+    std::string doubt(const Branch& branch, std::size_t point, const Label& label) const;
+    void set(Branch& branch, const Naming& naming) const;
     const char* tendency(const Branch& branch) const;
-    static void name_others(std::vector<Branch>& branches, const std::vector<Eigen::Index>& others);
+    static void name_others(std::vector<Branch>& branches, const std::vector<Naming>& namings);
     void name_motions(std::vector<Branch>& branches) const;
 
     const std::vector<CampbellPoint>& points_;
     const EnergyShares& energy_shares_;
     const std::vector<std::string>& rows_;
     NeighbourNames* neighbour_;  // may be null
-    std::vector<Label> labels_;
+    ModeLabels labels_;
 };
 
 // Over its first shape.
-int Naming::moving_row(const Branch& branch) const {
+int BranchNames::moving_row(const Branch& branch) const {
     for (std::size_t i = 0; i < points_.size(); ++i)
         if (const CampbellMode* m = mode(branch, i)) {
             Eigen::Index most = 0;
@@ -199,7 +104,7 @@ int Naming::moving_row(const Branch& branch) const {
 }
 
 // The one that most of its points are named after; -1: elastic energy.
-int Naming::usual_row(const Branch& branch) const {
+int BranchNames::usual_row(const Branch& branch) const {
     std::map<int, int> count;
     for (std::size_t i = 0; i < points_.size(); ++i)
         if (const CampbellMode* m = mode(branch, i)) ++count[m->row];
@@ -209,7 +114,7 @@ int Naming::usual_row(const Branch& branch) const {
     return usual;
 }
 
-std::string Naming::usual_kind(const Branch& branch) const {
+std::string BranchNames::usual_kind(const Branch& branch) const {
     std::map<std::string, int> count;
     for (std::size_t i = 0; i < points_.size(); ++i)
         if (const CampbellMode* m = mode(branch, i)) ++count[m->kind_name()];
@@ -218,117 +123,156 @@ std::string Naming::usual_kind(const Branch& branch) const {
         ->first;
 }
 
-Matrix Naming::scores(const std::vector<Branch>& branches) const {
-    Matrix score = Matrix::Zero(std::ssize(branches), std::ssize(labels_));
+Matrix BranchNames::scores(const std::vector<Branch>& branches) const {
+    Matrix score = Matrix::Zero(std::ssize(branches), std::ssize(labels_.all()));
     for (Eigen::Index b = 0; b < score.rows(); ++b)
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const CampbellMode* m = mode(entry(branches, b), i);
             if (!m) continue;
-            for (Eigen::Index l = 0; l < score.cols(); ++l) score(b, l) += part(*m, entry(labels_, l));
+            for (Eigen::Index l = 0; l < score.cols(); ++l)
+                score(b, l) += ModeLabels::part(*m, entry(labels_.all(), l));
         }
     return score;
 }
 
-// Label of a branch of the neighbour, whose components may be in another order; labels_.size(): none here.
-std::size_t Naming::own_label(const Branch& partner) const {
-    std::size_t l = 0;
-    if (partner.component < 0) return labels_.size();
+std::vector<Naming> BranchNames::by_sums(const std::vector<Branch>& branches) const {
+    Matrix score = scores(branches);
+    if (neighbour_) continue_names(branches, score);
+    const std::vector<int> label_of = assign(score);
+    std::vector<Naming> namings;
+    for (Eigen::Index b = 0; b < score.rows(); ++b) {
+        const int label = entry(label_of, b);
+        const bool own = label >= 0 && score(b, label) >= least_share * length(entry(branches, b));
+        Eigen::Index most = label;
+        if (!own) score.row(b).maxCoeff(&most);
+        namings.push_back({entry(labels_.all(), most), !own});
+    }
+    return namings;
+}
+
+void BranchNames::hand_over(std::vector<Branch>& branches, std::vector<Naming>& namings,
+                            const HandOver::Mac& mac) const {
+    std::vector<Names> names;
+    for (const CampbellPoint& point : points_) {
+        Names& own = names.emplace_back();
+        for (const CampbellMode& mode : point.modes) own.push_back(labels_.certain(point.rotor_speed, mode));
+    }
+    const auto by_energy = [&](std::size_t point, int index) -> HandOver::Name {
+        if (points_[point].rotor_speed == 0) return at_rest(points_[point].modes, names[point], index);
+        return {entry(names[point], index)};
+    };
+    const auto by_neighbour = [this](std::size_t point, int index) -> HandOver::Name {
+        const Branch* const there = neighbour_->certain(point, index);
+        return {there ? own_label(*there) : nullptr};
+    };
+    if (neighbour_)
+        HandOver(points_, by_neighbour, mac).run(branches, namings, false);
+    else
+        HandOver(points_, by_energy, mac).run(branches, namings, true);
+}
+
+// As the rotor begins to turn the lower of a pair whirls backward, the higher forward.
+HandOver::Name BranchNames::at_rest(const std::vector<CampbellMode>& modes, const Names& names, int mode) const {
+    constexpr double same = 1e-6;
+    const Label* const own = entry(names, mode);
+    if (own == nullptr || own->pattern != RotorPattern::backward) return {own};
+    double other = -1;
+    for (int m = 0; m < static_cast<int>(modes.size()); ++m) {
+        if (m == mode || entry(names, m) != own) continue;
+        if (other >= 0) return {own, true};  // more than two
+        other = entry(modes, m).mode.natural_hz();
+    }
+    const double hz = entry(modes, mode).mode.natural_hz();
+    if (other < 0 || std::abs(other - hz) <= same * hz) return {own, true};
+    if (hz < other) return {own};
+    return {&*std::ranges::find_if(labels_.all(), [&](const Label& label) { return is_pair(label, *own); })};
+}
+
+// Label of a branch of the neighbour, whose components may be in another order; null: none here.
+const Label* BranchNames::own_label(const Branch& partner) const {
+    if (partner.component < 0) return nullptr;
     const Component& wanted = neighbour_->component(partner);
-    for (; l < labels_.size(); ++l) {
-        const Label& label = labels_[l];
+    for (const Label& label : labels_.all()) {
         if (label.row >= 0 || label.pattern != partner.pattern || label.harmonic != partner.harmonic) continue;
         const Component& own = entry(energy_shares_.components(), label.component);
-        if (own.part == wanted.part && own.family == wanted.family && own.ordinal == wanted.ordinal) break;
+        if (own.part == wanted.part && own.family == wanted.family && own.ordinal == wanted.ordinal) return &label;
     }
-    return l;
+    return nullptr;
 }
 
 // The name that a branch has in the neighbour outweighs all energies. One that is "(another)" there stays so here: no
 // name but that, and that one only where it is left over.
-void Naming::continue_names(const std::vector<Branch>& branches, Matrix& score) const {
+void BranchNames::continue_names(const std::vector<Branch>& branches, Matrix& score) const {
     const double outweighs = 2 * (score.sum() + 1);
     for (std::size_t b = 0; b < branches.size(); ++b) {
         const Branch* partner = neighbour_->partner(b);
         if (!partner || usual_row(branches[b]) >= 0) continue;
-        const std::size_t l = own_label(*partner);
-        if (l == labels_.size()) continue;
-        const Label& label = labels_[l];
-        const auto row = static_cast<Eigen::Index>(b), column = static_cast<Eigen::Index>(l);
-        const bool own_name = partner->name == energy_shares_.name(label.component, label.pattern, label.harmonic);
+        const Label* const label = own_label(*partner);
+        if (label == nullptr) continue;
+        const auto row = static_cast<Eigen::Index>(b), column = static_cast<Eigen::Index>(label - labels_.all().data());
         score.row(row).setZero();
-        score(row, column) = own_name ? outweighs : 1e-9;
+        score(row, column) = partner->name == labels_.name(*label) ? outweighs : 1e-9;
     }
 }
 
 // Without a partner of the same name, or where the match with it is doubtful.
-void Naming::doubt_by_neighbour(std::vector<Branch>& branches) const {
+void BranchNames::doubt_by_neighbour(std::vector<Branch>& branches) const {
     for (std::size_t b = 0; b < branches.size(); ++b) {
         Branch& branch = branches[b];
         const Branch* partner = neighbour_->partner(b);
-        const bool same = partner && (branch.row >= 0 ? partner->row == branch.row : continues(branch, *partner));
-        for (std::size_t i = 0; i < branch.mode.size(); ++i)
-            if (branch.mode[i] >= 0 && (!same || neighbour_->doubtful(b, i, branch.mode[i]))) branch.doubtful[i] = true;
+        const bool same = partner && (branch.row >= 0 ? partner->component < 0 && partner->family == branch.family
+                                                      : continues(branch, *partner));
+        for (std::size_t i = 0; i < branch.mode.size(); ++i) {
+            if (branch.mode[i] < 0 || branch.doubtful[i]) continue;
+            if (!same)
+                branch.doubt[i] = "not in the neighbour";
+            else if (neighbour_->doubtful(b, i, branch.mode[i]))
+                branch.doubt[i] = "not surely that of the neighbour";
+            branch.doubtful[i] = !branch.doubt[i].empty();
+        }
     }
 }
 
 // By component and pattern.
-bool Naming::continues(const Branch& branch, const Branch& partner) const {
-    const std::size_t l = own_label(partner);
-    if (l == labels_.size()) return false;
-    const Label& label = labels_[l];
-    return branch.component == label.component && branch.pattern == label.pattern && branch.harmonic == label.harmonic;
+bool BranchNames::continues(const Branch& branch, const Branch& partner) const {
+    const Label* const label = own_label(partner);
+    return label != nullptr && is_same(*label, {branch.component, branch.pattern, branch.harmonic});
 }
 
-// The label with the largest share; `own` if none is larger.
-Label Naming::strongest(std::size_t point, const CampbellMode& mode, const Label& own) const {
-    Label best = own;
-    for (const Label& label : labels_)
-        if (held(points_[point], mode, label) > held(points_[point], mode, best)) best = label;
-    return best;
+// Of the name, and whether this is the mode that it was before.
+std::string BranchNames::doubt(const Branch& branch, std::size_t point, const Label& label) const {
+    const CampbellMode& m = *mode(branch, point);
+    if (std::string lost = doubt_of_mac(branch.mac[point]); !lost.empty()) return lost;
+    std::string name = labels_.doubt(points_[point].rotor_speed, m, label);
+    if (!name.empty() || !heavily_damped(m)) return name;
+    return text("heavily damped (from ", 100 * heavy_damping, " % on): the frequency says little");
 }
 
-std::string Naming::label_name(const Label& label, const CampbellMode& mode) const {
-    if (label.row < 0) return energy_shares_.name(label.component, label.pattern, label.harmonic);
-    return motion_name(entry(rows_, label.row), mode.kind_name(), "", "");
-}
-
-// The part of the energy of a label's component that has its pattern (at standstill: that of its pair). A motion
-// localised in one blade of three has a third of each.
-double Naming::own_pattern(const CampbellMode& mode, const Label& label) const {
-    if (label.row >= 0 || label.pattern == RotorPattern::none) return 1;
-    if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic, sure_blade);
-    const Share& share = entry(mode.shares, label.component);
-    const double total = share.total();
-    return total > 0 ? share.of(label.pattern, label.harmonic) / total : 1;
-}
-
-void Naming::set(Branch& branch, const Label& label) const {
+void BranchNames::set(Branch& branch, const Naming& naming) const {
+    const Label& label = naming.label;
     branch.component = label.component;
     branch.pattern = label.pattern;
     branch.harmonic = label.harmonic;
     branch.row = label.row;
     if (label.row < 0) {
-        branch.name = energy_shares_.name(label.component, label.pattern, label.harmonic);
+        branch.name = labels_.name(label);
         branch.family = entry(energy_shares_.components(), label.component).family;
     } else {
         branch.family = entry(rows_, label.row);
     }
     for (std::size_t i = 0; i < points_.size(); ++i) {
-        branch.doubtful.push_back(false);
-        branch.mostly.emplace_back();
         const CampbellMode* m = mode(branch, i);
-        if (!m) continue;
-        const Label best = strongest(i, *m, label);
-        branch.doubtful.back() = branch.mac[i] < min_reliable_mac || heavily_damped(*m) ||
-                                 held(points_[i], *m, label) < 0.8 * held(points_[i], *m, best) ||
-                                 ((points_[i].rotor_speed != 0 || label.pattern == RotorPattern::single) &&
-                                  own_pattern(*m, label) < sure_pattern);
-        branch.mostly.back() = label_name(best, *m);
+        // What is named after what it holds most of, which another branch is, is in doubt.
+        branch.doubt.push_back(m == nullptr                      ? ""
+                               : naming.another && label.row < 0 ? "another mode has the name"
+                                                                 : doubt(branch, i, label));
+        branch.doubtful.push_back(!branch.doubt.back().empty());
+        branch.mostly.push_back(m ? labels_.name(labels_.strongest(points_[i].rotor_speed, *m, label), *m) : "");
     }
 }
 
 // By the mean over the points.
-const char* Naming::tendency(const Branch& branch) const {
+const char* BranchNames::tendency(const Branch& branch) const {
     double growth = 0;
     bool real = false;
     for (std::size_t i = 0; i < points_.size(); ++i)
@@ -341,29 +285,26 @@ const char* Naming::tendency(const Branch& branch) const {
 
 // Branches of the same kind as one that has the name already: the two motions of a locked mode, parts of the machine
 // that have no component modes. "1st tower fore-aft (another)", "blade flap (backward, another 2)"
-void Naming::name_others(std::vector<Branch>& branches, const std::vector<Eigen::Index>& others) {
+void BranchNames::name_others(std::vector<Branch>& branches, const std::vector<Naming>& namings) {
     std::map<std::string, int> count;
-    for (const Eigen::Index b : others) {
-        Branch& branch = entry(branches, b);
-        std::string& name = branch.name;
-        if (name.empty()) continue;  // a motion of a coordinate
+    for (std::size_t b = 0; b < branches.size(); ++b) {
+        std::string& name = branches[b].name;
+        if (!namings[b].another || name.empty()) continue;  // or a motion of a coordinate
         const int number = ++count[name];
         const std::string which = number == 1 ? "another" : text("another ", number);
         if (name.back() == ')')
             name.insert(name.size() - 1, ", " + which);
         else
             name += " (" + which + ")";
-        // Named after what it holds most of, which another branch is.
-        for (std::size_t i = 0; i < branch.doubtful.size(); ++i) branch.doubtful[i] = branch.mode[i] >= 0;
     }
 }
 
 // Names of those without elastic energy; of several alike the later ones are numbered.
-void Naming::name_motions(std::vector<Branch>& branches) const {
+void BranchNames::name_motions(std::vector<Branch>& branches) const {
     constexpr std::array numbers{"", "2nd", "3rd"};
     std::map<std::string, std::size_t> count;
     for (Branch& branch : branches) {
-        if (branch.row < 0) continue;
+        if (branch.row < 0 || length(branch) == 0) continue;
         const std::string kind = usual_kind(branch);
         const char* how = kind == "rigid" || kind == "oscillation" ? "" : tendency(branch);
         const std::size_t before = count[motion_name(branch.family, kind, "", how)]++;
@@ -376,7 +317,7 @@ void Naming::name_motions(std::vector<Branch>& branches) const {
 
 std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
                                       const std::vector<std::string>& rows, const std::vector<NamedState>& states,
-                                      bool whirl, NeighbourNames* neighbour) const {
+                                      bool whirl, BranchesOf of, NeighbourNames* neighbour) const {
     std::vector<Branch> tracked;
     for (const Track& track : tracks_) {
         Branch& branch = tracked.emplace_back();
@@ -384,7 +325,13 @@ std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, 
         branch.mac = track.mac;
     }
     std::vector<Branch> of_states = take_branches_of_states(points, states, tracked);
-    std::vector<Branch> branches = Naming(points, energy_shares, rows, whirl, neighbour).name(std::move(tracked));
+    HandOver::Mac mac;
+    if (of == BranchesOf::names)
+        mac = [this](std::size_t before, int mode_before, std::size_t point, int mode) {
+            return mac_between(before, mode_before, point, mode);
+        };
+    std::vector<Branch> branches =
+        BranchNames(points, energy_shares, rows, whirl, neighbour).name(std::move(tracked), mac);
     std::ranges::move(of_states, std::back_inserter(branches));
     // By frequency but for rounding, what decays before what grows.
     const auto place = [&](const Branch& branch) {

@@ -30,7 +30,8 @@ void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
     if (!diagram.warning.empty()) out << csv_comment("warning: " + diagram.warning);
     if (!diagram.complete) out << csv_comment("the sweep was interrupted");
     out << "rotor_speed[rpm],mode[-],natural_frequency[Hz],damped_frequency[Hz],damping_ratio[-],mac[-],doubtful[-],"
-           "mostly[-],kind[-],growth_rate[1/s],stability_margin[1/s]"
+           "mostly[-],kind[-],growth_rate[1/s],stability_margin[1/s],"
+           "doubt[-]"
         << (diagram.parameter.empty() ? "" : ",") << csv_field(diagram.parameter) << "\n";
     for (std::size_t i = 0; i < diagram.points.size(); ++i)
         for (const Branch& branch : diagram.branches) {
@@ -40,7 +41,7 @@ void write_csv(const Campbell& diagram, const std::filesystem::path& path) {
                 << diagram.natural_hz(branch, i) << ',' << diagram.damped_hz(branch, i) << ','
                 << diagram.damping_ratio(branch, i) << ',' << branch.mac[i] << ',' << (branch.doubtful[i] ? 1 : 0)
                 << ',' << csv_field(branch.mostly[i]) << ',' << mode->kind_name() << ',' << mode->mode.eigenvalue.real()
-                << ',' << diagram.points[i].stability_margin;
+                << ',' << diagram.points[i].stability_margin << ',' << csv_field(branch.doubt[i]);
             if (!diagram.parameters.empty()) out << ',' << diagram.parameters[i];
             out << '\n';
         }

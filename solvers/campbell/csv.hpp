@@ -10,7 +10,9 @@ namespace cardan::solvers {
 
 /// One line per rotor speed and mode: rotor_speed[rpm], mode, natural_frequency[Hz], damped_frequency[Hz],
 /// damping_ratio[-], mac[-], doubtful[-], mostly[-] (the name that holds most energy there), kind[-] (see
-/// CampbellMode::kind_name), growth_rate[1/s], stability_margin[1/s] (of the rotor speed); comment lines begin with #.
+/// CampbellMode::kind_name), growth_rate[1/s], stability_margin[1/s] (of the rotor speed), doubt[-] (why); comment
+/// lines begin with
+/// #.
 /// In a diagram over another parameter, that parameter is the last column. Names that contain a comma are quoted. Ten
 /// significant digits.
 /// @throws FileError if the path cannot be written or the disk is full

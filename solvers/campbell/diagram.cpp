@@ -108,6 +108,9 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
     const std::string name = name_of(parameter);
     if (parameter.empty()) cases = by_speed;
     for (std::size_t i = 0; i < cases.size(); ++i) check_next(i > 0 ? &cases[i - 1] : nullptr, cases[i], name);
+    if (options.neighbour && !parameter.empty())
+        throw InputError("Campbell diagram", text("neighbour of a diagram over ", name), "given",
+                         "none: modes are followed from one machine to the next");
     const MethodChoice choice = choose_method(cases, name, options);
     CampbellOptions own = options;
     own.method = choice.method;

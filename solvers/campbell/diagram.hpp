@@ -69,12 +69,13 @@ struct CampbellOptions {
     bool all_state_motions = false;
     bool keep_shapes = true;  ///< motions of the frames on the machine's lines, for pictures and files
     CampbellFloquetOptions floquet = {};
-    /// Diagram of a similar variant of the machine, with the same method, blades and rows: branches take over the names
-    /// they have there, matched by the complex energy MAC at the rotor speeds common to both. A name is doubtful where
-    /// the MAC is below `min_reliable_mac` or two candidates compete, and everywhere if the neighbour has no such
-    /// branch (it should have at least as many: use the same `max_frequency_hz`). Motions named after a coordinate are
-    /// not matched. Null: names from the elastic energy alone. Must outlive the call. Not for a diagram over another
-    /// parameter, which is tracked from one machine to the next anyway.
+    /// Diagram of a similar variant of the machine, with the same method and number of blades: branches take over the
+    /// names they have there, matched at the rotor speeds common to both by the complex energy MAC, or, where the rows
+    /// differ (another mesh) or the neighbour is from a file, by how the lines of blades and tower move. A name is
+    /// doubtful where the MAC is below `min_reliable_mac` or two candidates compete, and everywhere if the neighbour
+    /// has no such branch (it should have at least as many: use the same `max_frequency_hz`). Motions named after a
+    /// coordinate are not matched. Null: names from the elastic energy alone. Must outlive the call. Not for a diagram
+    /// over another parameter, which is tracked from one machine to the next anyway.
     const Campbell* neighbour = nullptr;
     /// Called after every rotor speed with the numbers done and to do.
     std::function<void(int done, int total)> progress = {};
@@ -133,7 +134,9 @@ struct CampbellPoint {
 /// that lies between models of the air for the flap modes of a blade, which have such damping.
 inline constexpr double heavy_damping = 0.4;
 
-/// A mode tracked over rotor speed.
+/// A mode tracked over rotor speed, along its curve; where two curves exchange their characters in a veering, from one
+/// to the other (not in stability_limits()): a mode with three quarters of its energy under a name is in the branch of
+/// that name, whatever the rotor speeds asked for, and where there is no doubt the name is the same in every diagram.
 struct Branch {
     std::string name;    ///< "1st blade flap (backward)", "1st blade flap (symmetric)", "yaw (rigid)"
     std::string family;  ///< "blade flap", "yaw"
@@ -144,10 +147,12 @@ struct Branch {
                               ///< RotorPattern::single the place of the blade in RotorMap::blades, from 1
     std::vector<int> mode;    ///< at every point the index in CampbellPoint::modes, -1: none
     std::vector<double> mac;  ///< complex energy MAC with the point before, 1 at the first
-    /// True where the mode was tracked with a MAC below `min_reliable_mac`, another name clearly holds more energy, the
-    /// blades do not move in the named pattern, another branch has the name ("another"), the neighbouring variant of
-    /// the machine does not confirm it (CampbellOptions::neighbour), or an oscillation has `heavy_damping`.
+    /// True where the mode was tracked with a MAC below `min_reliable_mac`, the component that names it holds less than
+    /// half of the elastic energy, another component or pattern has four fifths as much or more, the blades do not move
+    /// in the named pattern (or do not whirl), another branch has the name ("another"), the neighbouring variant of the
+    /// machine does not confirm it (CampbellOptions::neighbour), or an oscillation has `heavy_damping`.
     std::vector<bool> doubtful;
+    std::vector<std::string> doubt;   ///< why, in a few words; empty where it is not
     std::vector<std::string> mostly;  ///< the name with most elastic energy at the point; empty without a mode
     /// At most of its points it is a motion of states rather than of the machine, which stability_limits() follows
     /// too. Its family is the part of the states that move most, "wake", "airfoil lag", and its name has a number.

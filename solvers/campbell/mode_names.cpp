@@ -69,6 +69,10 @@ Campbell renamed(Campbell diagram, NameStyle style) {
     for (Branch& branch : diagram.branches) {
         branch.name = community_name(branch);
         for (std::string& name : branch.mostly) name = community_name(name);
+        for (std::string& doubt : branch.doubt)
+            for (const std::string_view before : {"mostly ", "also "})
+                if (doubt.starts_with(before))
+                    doubt = std::string(before) + community_name(std::string_view(doubt).substr(before.size()));
     }
     return diagram;
 }

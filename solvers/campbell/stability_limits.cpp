@@ -197,7 +197,7 @@ void LimitSearch::accept(Probe probe, const PeriodicMac& likeness) {
     else
         starts_.push_back({point.at.q, point.at.s});
     notes_.see(probe.parameter, point);
-    sweep_.add(*probe.solver, std::move(probe.point), likeness, probe.parameter);
+    sweep_.add(std::move(probe.point), likeness, probe.parameter);
     parameters_.push_back(probe.parameter);
     solvers_.push_back(std::move(probe.solver));
     roots_.push_back(std::move(probe.roots));
@@ -341,7 +341,7 @@ StabilityLimits LimitSearch::run(double from, double to) {
     }
     std::vector<const PointMethod*> solvers;
     for (const auto& solver : solvers_) solvers.push_back(solver.get());
-    found_.diagram = sweep_.finish(rotor_, solvers);
+    found_.diagram = sweep_.finish(rotor_, solvers, BranchesOf::curves);
     found_.diagram.complete = parameters_.back() == to;
     if (!parameter_.empty()) found_.diagram.parameters = parameters_;
     notes_.tell_growth(found_.diagram);

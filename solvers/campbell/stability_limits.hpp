@@ -52,7 +52,7 @@ struct StabilityLimit {
 struct StabilityLimits {
     std::vector<StabilityLimit> limits;  ///< by the parameter
     /// The modes that were followed, and where: frequencies and damping over the parameter. `complete` is false if the
-    /// end of the range was not reached.
+    /// end of the range was not reached. Its branches are single curves, also through veerings.
     Campbell diagram;
     /// What grows at the first value already, or where it is first found or lost; what grows, or is all there is,
     /// beyond the largest frequency that is followed; why the end of the range was not reached, or divergence not

@@ -196,6 +196,25 @@ std::string crossings(const Campbell& diagram) {
     return out.str();
 }
 
+// Why the names and frequencies are in doubt that are marked.
+std::string doubts(const Campbell& diagram, const std::vector<std::size_t>& shown, bool states) {
+    std::ostringstream out = text_stream();
+    out << std::fixed << std::setprecision(1);
+    for (const Branch& branch : diagram.branches) {
+        if (branch.of_states && !states) continue;
+        for (const std::size_t i : shown) {
+            if (branch.mode[i] < 0 || !branch.doubtful[i]) continue;
+            out << "  " << branch.name << " at ";
+            if (diagram.parameters.empty())
+                out << diagram.points[i].rotor_speed * units::to_rpm << " rpm";
+            else
+                out << text(diagram.parameters[i]);
+            out << ": " << branch.doubt[i] << "\n";
+        }
+    }
+    return out.str().empty() ? std::string() : "\n? in doubt there\n" + out.str();
+}
+
 }  // namespace
 
 std::string method_in_words(const Campbell& diagram) {
@@ -232,8 +251,7 @@ std::string table(const Campbell& diagram, bool states) {
     out << state_motions(diagram, shown, width);
     out << margins(diagram, shown, width);
     if (!diagram.accuracy.empty()) out << diagram.accuracy << "\n";
-    out << "\n? doubtful there: the mode is a mixture, was hard to follow, or is so heavily damped (from "
-        << std::setprecision(0) << 100 * heavy_damping << " % on) that its frequency says little\n";
+    out << doubts(diagram, shown, states);
     const auto left_out = std::ranges::count_if(diagram.branches, &Branch::of_states);
     if (left_out > 0 && !states) out << left_out << " roots that are mostly states are left out\n";
     if (has_blade_frequencies(diagram)) out << "modes of one blade: frequencies in its rotating frame\n";

@@ -162,12 +162,18 @@ private:
                    [](std::size_t i, const Branch& x) { return x.mac[i]; });
         over_speed("doubtful", {"1", "1 where name or tracking is doubtful"},
                    [](std::size_t i, const Branch& x) { return x.doubtful[i] ? 1 : 0; });
+        texts("doubt", "why name or tracking is doubtful; empty where it is not",
+              [](std::size_t i, const Branch& x) { return x.doubt[i]; });
         texts("mostly", "name that holds most of the elastic energy",
               [](std::size_t i, const Branch& x) { return x.mostly[i]; });
         texts("kind", "kind of the motion, empty without a mode", [&](std::size_t i, const Branch& x) {
             const CampbellMode* mode = mode_of(i, x);
             return mode ? mode->kind_name() : std::string();
         });
+        write_array(file_, "branches/name_component", column(d_.branches, [](const Branch& x) { return x.component; }),
+                    {branch_}, {"1", "index of the component that names the branch, -1: none"});
+        write_array(file_, "branches/name_harmonic", column(d_.branches, [](const Branch& x) { return x.harmonic; }),
+                    {branch_}, {"1", "harmonic of the azimuth of the pattern; of a single blade its place, from 1"});
         shares();
     }
 

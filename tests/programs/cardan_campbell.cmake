@@ -87,3 +87,16 @@ string(REGEX REPLACE "True( +[A-Za-z]+DOF[0-9]?)" "False\\1" elastodyn "${elasto
 file(WRITE ${test_output_dir}/held/small_ElastoDyn.dat "${elastodyn}")
 add_example_test(example_openfast_held cardan 0 "switches off all degrees of freedom.*1st blade flap" campbell held/small.fst --rpm 0
                  ${coarse} --out example_openfast_held)
+# Names of another result, also through a file that is named from elsewhere.
+add_example_test(example_like_base cardan 0 "1st tower fore-aft.*files" campbell ${models}/openfast/small.fst --rpm 0:40:20 ${coarse} --out
+                 example_like_base)
+add_example_test(example_like cardan 0 "names: those of Fictitious 100 kW machine .example_like_base.h5..*1st tower fore-aft.*files" modes
+                 ${models}/openfast/small.fst --rpm 40 --blade-elements 3 --tower-elements 2 --like example_like_base.h5 --out example_like)
+add_example_test(example_like_again cardan 0 "--like=/[^ ]*/example_like_base.h5 .*1st tower fore-aft.*files" repeat example_like.h5
+                 --out example_like_again)
+add_example_test(example_like_speed cardan 1 "number of rotor speeds that both diagrams have = 0" modes ${models}/openfast/small.fst --rpm 41
+                 --like example_like_base.h5 ${coarse} --out example_like_speed)
+set_tests_properties(example_like_base PROPERTIES FIXTURES_SETUP like_base)
+set_tests_properties(example_like example_like_speed PROPERTIES FIXTURES_REQUIRED like_base)
+set_tests_properties(example_like PROPERTIES FIXTURES_SETUP like_first)
+set_tests_properties(example_like_again PROPERTIES FIXTURES_REQUIRED "like_base;like_first")

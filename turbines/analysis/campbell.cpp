@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "solvers/hdf5/campbell.hpp"
 #include "turbines/analysis/detail/rounded.hpp"
 #include "turbines/analysis/in_unit.hpp"
 #include "turbines/analysis/prepared_machine.hpp"
@@ -32,6 +33,9 @@ void check(const CampbellSettings& s) {
     if (!s.pitch_schedule.empty())
         throw InputError("CampbellSettings::pitch_schedule", "number of rows", s.pitch_schedule.size(),
                          "none beside winds: see MachineOperation::schedule");
+    if (!s.like.empty())
+        throw InputError("CampbellSettings::like", "file", s.like.string(),
+                         "none beside winds: modes are followed from one to the next");
 }
 
 std::vector<double> usual_speeds(const Machine& machine, const Report& report) {
@@ -99,6 +103,12 @@ solvers::Campbell over_speeds(const Machine& machine, const CampbellSettings& s,
                               const std::vector<double>& pitch) {
     solvers::CampbellOptions options = modes_of(s, machine, "rotor speed");
     options.method = method_of(machine, s.gravity);
+    std::optional<solvers::Campbell> like;
+    if (!s.like.empty()) {
+        options.neighbour = &like.emplace(solvers::read_campbell(s.like, solvers::CampbellShapes::read));
+        report_remark(s.report, {Remark::Kind::taken, text("names: those of ", like->machine, " (",
+                                                           s.like.filename().string(), "), where modes are alike")});
+    }
     if (s.pitch_schedule.empty()) return solvers::campbell(first.system(), first.rotor(), s.rotor_speeds, options);
     std::vector<Turbine> machines;
     MachineSettings own = s.machine;
@@ -172,6 +182,7 @@ CampbellDiagram campbell(const Machine& source, const CampbellSettings& settings
     CampbellSettings s = settings;
     std::vector<Remark> remarks;
     s.report = kept(remarks, settings.report);
+    if (!s.like.empty()) s.like = std::filesystem::absolute(s.like);  // to be repeated from elsewhere
     s.rotor_speeds = rising(std::move(s.rotor_speeds), "CampbellSettings::rotor_speeds", "rotor speeds", units::rpm,
                             "rpm", s.report);
     s.winds = rising(std::move(s.winds), "CampbellSettings::winds", "wind speeds", 1, "m/s", s.report);

@@ -208,6 +208,9 @@ struct CampbellSettings {
     bool gravity = false;
     /// Modes up to here, Hz; none: 1.3 times the third of the blade, clamped and at rest, usual_frequency().
     std::optional<double> max_frequency_hz = {};
+    /// Result (.h5) of campbell() for a similar machine, over the rotor speed: modes have the names that it gives to
+    /// those most like them at the rotor speeds that both have, CampbellOptions::neighbour. None beside `winds`.
+    std::filesystem::path like = {};
     /// @name With winds
     ///@{
     AirSettings air = {};

@@ -80,6 +80,7 @@ Campbell paired(const Campbell& diagram, const Campbell& other, const turbines::
         branch.mode.assign(other.points.size(), -1);
         branch.mac.assign(other.points.size(), 0);
         branch.doubtful.assign(other.points.size(), false);
+        branch.doubt.assign(other.points.size(), "");
         branch.mostly.assign(other.points.size(), "");
     }
     for (std::size_t p = 0; p < points; ++p) {
@@ -95,6 +96,7 @@ Campbell paired(const Campbell& diagram, const Campbell& other, const turbines::
             branch.mac[p] = found;
             branch.doubtful[p] =
                 found < std::max({solvers::min_reliable_mac, mac.row(i).maxCoeff(), mac.col(other_mode).maxCoeff()});
+            if (branch.doubtful[p]) branch.doubt[p] = "not surely the same mode";
         }
     }
     return result;

@@ -24,7 +24,17 @@ int point_at_speed(const Campbell& diagram, double speed) {
 
 }  // namespace
 
-void NeighbourNames::check(const Campbell& diagram) const {
+// A file has none, but the motions of frames.
+bool NeighbourNames::has_shapes(std::size_t rows) const {
+    for (std::size_t i = 0; i < neighbour_.points.size(); ++i)
+        for (const Branch& branch : neighbour_.branches)
+            if (const CampbellMode* m = neighbour_.mode(branch, i);
+                m && m->mode.shape.size() != static_cast<Eigen::Index>(rows))
+                return false;
+    return true;
+}
+
+void NeighbourNames::set_machine(const Campbell& diagram) {
     constexpr auto place = "neighbouring Campbell diagram";
     if (!neighbour_.parameter.empty())
         throw InputError(place, "parameter", neighbour_.parameter, "none: a diagram over the rotor speed");
@@ -34,24 +44,35 @@ void NeighbourNames::check(const Campbell& diagram) const {
         throw InputError(place, "number of blades", neighbour_.blades, text(diagram.blades, ", as the other"));
     const auto [own, other] =
         std::mismatch(diagram.rows.begin(), diagram.rows.end(), neighbour_.rows.begin(), neighbour_.rows.end());
-    if (own == diagram.rows.end() && other == neighbour_.rows.end()) return;
-    throw InputError(place, text("row ", own - diagram.rows.begin() + 1, " of the modes"),
-                     other == neighbour_.rows.end() ? "none" : *other,
-                     own == diagram.rows.end() ? "none, as the other" : text("'", *own, "', as the other"));
+    const bool same_rows = own == diagram.rows.end() && other == neighbour_.rows.end();
+    if (same_rows && has_shapes(diagram.rows.size())) return;
+    lines_.emplace(neighbour_, diagram);
+    if (lines_->has_lines() && !neighbour_.motions.empty()) return;
+    const std::string else_lines = "; else both with lines of the same parts, and with their motions (keep_shapes)";
+    if (same_rows) throw InputError(place, "shapes of its modes", "none", "over the rows of the other" + else_lines);
+    throw InputError(
+        place, text("row ", own - diagram.rows.begin() + 1, " of the modes"),
+        other == neighbour_.rows.end() ? "none" : *other,
+        text(own == diagram.rows.end() ? "none, as the other" : text("'", *own, "', as the other"), else_lines));
 }
 
-void NeighbourNames::add(const SecondOrderSystem& system, const CampbellPoint& point) {
+void NeighbourNames::add(const SecondOrderSystem& system, const CampbellPoint& point,
+                         const std::function<std::vector<std::vector<FrameMotion>>()>& motions) {
     Matrix& mac = mac_.emplace_back();
     const int there = point_at_speed(neighbour_, point.rotor_speed);
     if (there < 0) return;
     std::vector<const CampbellMode*> modes;
+    std::vector<const std::vector<FrameMotion>*> moving;
     std::vector<Eigen::Index> branches;
-    for (Eigen::Index b = 0; b < std::ssize(neighbour_.branches); ++b)
-        if (const CampbellMode* m = neighbour_.mode(entry(neighbour_.branches, b), static_cast<std::size_t>(there))) {
-            modes.push_back(m);
-            branches.push_back(b);
-        }
-    const Matrix found = periodic_mac(system, modes, point.modes).mac;
+    for (Eigen::Index b = 0; b < std::ssize(neighbour_.branches); ++b) {
+        const Branch& branch = entry(neighbour_.branches, b);
+        const int mode = entry(branch.mode, there);
+        if (mode < 0) continue;
+        modes.push_back(&entry(entry(neighbour_.points, there).modes, mode));
+        if (lines_) moving.push_back(&entry(entry(neighbour_.motions, there), mode));
+        branches.push_back(b);
+    }
+    const Matrix found = lines_ ? lines_->mac(moving, motions()) : periodic_mac(system, modes, point.modes).mac;
     mac = Matrix::Zero(std::ssize(neighbour_.branches), found.cols());
     for (Eigen::Index i = 0; i < found.rows(); ++i) mac.row(entry(branches, i)) = found.row(i);
 }
@@ -91,14 +112,28 @@ bool NeighbourNames::doubtful(std::size_t branch, std::size_t point, int mode) c
     if (index < 0) return true;
     const Matrix& mac = mac_.at(point);
     if (mac.size() == 0 || mac.row(index).isZero(0)) return false;  // the neighbour has nothing there
-    const double own = mac(index, mode);
-    if (own < min_reliable_mac) return true;
+    return !fits(index, point, mode);
+}
+
+const Branch* NeighbourNames::certain(std::size_t point, int mode) const {
+    const Matrix& mac = mac_.at(point);
+    if (mac.size() == 0) return nullptr;
+    Eigen::Index most = 0;
+    mac.col(mode).maxCoeff(&most);
+    return fits(static_cast<int>(most), point, mode) ? &entry(neighbour_.branches, most) : nullptr;
+}
+
+// Of the neighbour's branch.
+bool NeighbourNames::fits(int branch, std::size_t point, int mode) const {
+    const Matrix& mac = mac_.at(point);
+    const double own = mac(branch, mode);
+    if (own < min_reliable_mac) return false;
     double rival = 0;
     for (Eigen::Index b = 0; b < mac.rows(); ++b)
-        if (b != index) rival = std::max(rival, mac(b, mode));
+        if (b != branch) rival = std::max(rival, mac(b, mode));
     for (Eigen::Index m = 0; m < mac.cols(); ++m)
-        if (m != mode) rival = std::max(rival, mac(index, m));
-    return rival > rival_part * own;
+        if (m != mode) rival = std::max(rival, mac(branch, m));
+    return !(rival > rival_part * own);
 }
 
 }  // namespace cardan::solvers

@@ -2,6 +2,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "solvers/campbell/detail/mode_labels.hpp"
 
 #include <algorithm>
 #include <map>
@@ -53,7 +54,8 @@ std::vector<Branch> take_branches_of_states(const std::vector<CampbellPoint>& po
         branch.name = text(branch.family, " ", ++count[branch.family]);
         for (std::size_t i = 0; i < points.size(); ++i) {
             const bool there = branch.mode[i] >= 0;
-            branch.doubtful.push_back(there && branch.mac[i] < min_reliable_mac);
+            branch.doubt.push_back(there ? doubt_of_mac(branch.mac[i]) : "");
+            branch.doubtful.push_back(!branch.doubt.back().empty());
             branch.mostly.push_back(there ? branch.name : "");
         }
         taken.push_back(std::move(branch));

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace cardan::solvers {
@@ -166,7 +167,7 @@ void Sweep::set_machine(const System& system, const RotorMap& rotor, const Point
         states_.push_back({state.part.empty() ? state.name : state.part, state.scale});
     diagram_.remark = held_inputs(system.forces);
     frames_ = recorded_frames(system, rotor, diagram_);
-    if (options_.neighbour) neighbour_.emplace(*options_.neighbour).check(diagram_);
+    if (options_.neighbour) neighbour_.emplace(*options_.neighbour).set_machine(diagram_);
 }
 
 bool Sweep::is_cancelled() {
@@ -185,7 +186,13 @@ bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed, d
         throw;
     }
     const PeriodicMac alike = likeness(solver, point);
-    add(solver, std::move(point), alike, parameter);
+    if (neighbour_)
+        neighbour_->add(solver.system(), point, [&] {
+            std::vector<int> all(point.modes.size());
+            std::iota(all.begin(), all.end(), 0);
+            return motions(system, solver, point, all, frames_);
+        });
+    add(std::move(point), alike, parameter);
     systems_.push_back(&system);
     if (options_.progress) options_.progress(static_cast<int>(diagram_.points.size()), static_cast<int>(points_));
     return true;
@@ -208,9 +215,8 @@ bool Sweep::continues(const PeriodicMac& likeness, const CampbellPoint& point) c
     return tracker_.continues(likeness.score, likeness.mac, point, options_.max_frequency_hz);
 }
 
-void Sweep::add(const PointMethod& solver, CampbellPoint point, const PeriodicMac& likeness, double parameter) {
+void Sweep::add(CampbellPoint point, const PeriodicMac& likeness, double parameter) {
     tracker_.add(likeness.score, likeness.mac, point);
-    if (neighbour_) neighbour_->add(solver.system(), point);
     if (std::isfinite(point.stability_margin)) warn_of_instability(point, diagram_.parameter, parameter, instability_);
     diagram_.points.push_back(std::move(point));
 }
@@ -254,14 +260,14 @@ void Sweep::align(const EnergyShares& own, CampbellPoint& point) {
     }
 }
 
-void Sweep::set_branches(const std::vector<const PointMethod*>& solvers) {
+void Sweep::set_branches(const std::vector<const PointMethod*>& solvers, BranchesOf of) {
     const EnergyShares* energy_shares = solvers[0]->energy_shares();
     if (!energy_shares) return;
     diagram_.components = energy_shares->components();
     const bool whirl = options_.method != CampbellMethod::frozen_azimuth &&
                        std::any_of(diagram_.points.begin(), diagram_.points.end(),
                                    [](const CampbellPoint& p) { return p.rotor_speed != 0; });
-    diagram_.branches = tracker_.branches(diagram_.points, *energy_shares, diagram_.rows, states_, whirl,
+    diagram_.branches = tracker_.branches(diagram_.points, *energy_shares, diagram_.rows, states_, whirl, of,
                                           neighbour_ ? &*neighbour_ : nullptr);
     take_blade_frequencies(diagram_);
     std::erase_if(diagram_.branches,
@@ -283,8 +289,8 @@ void Sweep::set_warning(const RotorMap& rotor, const std::vector<const PointMeth
     append(diagram_.warning, instability_);
 }
 
-Campbell Sweep::finish(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers) {
-    set_branches(solvers);
+Campbell Sweep::finish(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers, BranchesOf of) {
+    set_branches(solvers, of);
     set_warning(rotor, solvers);
     if (diagram_.parameter.empty()) find_crossings(diagram_);
     return std::move(diagram_);

@@ -37,16 +37,17 @@ public:
     bool continues(const PeriodicMac& likeness, const CampbellPoint& point) const;
     /// Without shapes (CampbellOptions::keep_shapes), which need the machine at the end.
     /// @param parameter  its place on the axis, where that is not of rotor speeds
-    void add(const PointMethod& solver, CampbellPoint point, const PeriodicMac& likeness, double parameter);
+    void add(CampbellPoint point, const PeriodicMac& likeness, double parameter);
 
     /// @param solvers  by point, or one for all
-    Campbell finish(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers);
+    Campbell finish(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers,
+                    BranchesOf of = BranchesOf::names);
 
 private:
     bool is_cancelled();
     void align(const EnergyShares& own, CampbellPoint& point);
     PeriodicMac likeness_of_periodic(const PointMethod& solver, const CampbellPoint& point) const;
-    void set_branches(const std::vector<const PointMethod*>& solvers);
+    void set_branches(const std::vector<const PointMethod*>& solvers, BranchesOf of);
     void set_warning(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers);
 
     const CampbellOptions& options_;

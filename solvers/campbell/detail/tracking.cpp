@@ -146,6 +146,7 @@ void Tracker::add(const Matrix& score, const Matrix& mac, const CampbellPoint& p
     std::vector<int> mode_of_track(tracks_.size(), -1);
     std::vector<bool> taken(point.modes.size(), false);
     if (score.size() > 0) mode_of_track = assign(score);
+    mac_.push_back(mac);
     for (Eigen::Index t = 0; t < std::ssize(tracks_); ++t) {
         Track& track = entry(tracks_, t);
         const int mode = entry(mode_of_track, t);
@@ -168,6 +169,15 @@ void Tracker::add(const Matrix& score, const Matrix& mac, const CampbellPoint& p
         last_.push_back(point.modes[m]);
     }
     ++points_;
+}
+
+// Of a mode with one before; 0 if its track went on in between to another, with which the later one was compared.
+double Tracker::mac_between(std::size_t before, int mode_before, std::size_t point, int mode) const {
+    const auto own = std::ranges::find_if(tracks_, [&](const Track& t) { return t.mode[before] == mode_before; });
+    if (own == tracks_.end()) return 0;
+    for (std::size_t i = before + 1; i < point; ++i)
+        if (own->mode[i] >= 0) return 0;
+    return mac_[point](own - tracks_.begin(), mode);
 }
 
 }  // namespace cardan::solvers

@@ -14,6 +14,12 @@ namespace cardan::solvers {
 /// Score between 0 and 1 below which two modes are never taken for the same.
 inline constexpr double min_score = 0.1;
 
+/// What a branch is of.
+enum class BranchesOf : std::uint8_t {
+    names,   ///< modes of one name: where two curves exchange their characters, modes go over (HandOver)
+    curves,  ///< modes of one track, whatever becomes of them
+};
+
 /// Links the modes of consecutive points by optimal assignment on the complex energy MAC, never by frequency order.
 /// Points may differ in anything but their rows. Oscillations, and motions named after a coordinate, begin a track.
 class Tracker {
@@ -45,7 +51,7 @@ public:
     /// @param neighbour  with all points; null: none
     std::vector<Branch> branches(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
                                  const std::vector<std::string>& rows, const std::vector<NamedState>& states,
-                                 bool whirl, NeighbourNames* neighbour = nullptr) const;
+                                 bool whirl, BranchesOf of, NeighbourNames* neighbour = nullptr) const;
 
 private:
     struct Track {
@@ -54,7 +60,10 @@ private:
     };
     void require_size(const Matrix& matrix, const CampbellPoint& point) const;
 
+    double mac_between(std::size_t before, int mode_before, std::size_t point, int mode) const;
+
     std::vector<Track> tracks_;
+    std::vector<Matrix> mac_;  // by point: as given to add()
     std::vector<CampbellMode> last_;
     std::size_t points_ = 0;
 };

@@ -77,6 +77,7 @@ Campbell small(const std::string& name) {
     branch.mode = {0};
     branch.mac = {1};
     branch.doubtful = {false};
+    branch.doubt = {""};
     branch.mostly = {name};
     return d;
 }
@@ -124,8 +125,8 @@ TEST_CASE("campbell table: header with units in every column, comments before it
     const Table table = table_of(d);
     CHECK(table.header == std::vector<std::string>{"rotor_speed[rpm]", "mode[-]", "natural_frequency[Hz]",
                                                    "damped_frequency[Hz]", "damping_ratio[-]", "mac[-]", "doubtful[-]",
-                                                   "mostly[-]", "kind[-]", "growth_rate[1/s]",
-                                                   "stability_margin[1/s]"});
+                                                   "mostly[-]", "kind[-]", "growth_rate[1/s]", "stability_margin[1/s]",
+                                                   "doubt[-]"});
     REQUIRE(table.comments.size() == 1);
     d.warning = "something, to \"say\"";
     d.complete = false;
@@ -143,6 +144,7 @@ TEST_CASE("campbell table: a point where a branch has no mode has no line", "[pr
     d.branches[0].mode.push_back(-1);
     d.branches[0].mac.push_back(0);
     d.branches[0].doubtful.push_back(false);
+    d.branches[0].doubt.emplace_back();
     d.branches[0].mostly.emplace_back();
     CHECK(table_of(d).rows.size() == 1);
 }
@@ -152,7 +154,7 @@ TEST_CASE("campbell table: over another parameter it is the last column", "[prop
     d.parameter = "tower over blade rigidity, -";  // with a comma
     d.parameters = {12.5};
     const Table table = table_of(d);
-    CHECK(table.header.size() == 12);
+    CHECK(table.header.size() == 13);
     CHECK(table.header.back() == d.parameter);
     REQUIRE(table.rows.size() == 1);
     CHECK(table.rows[0].back() == "12.5");

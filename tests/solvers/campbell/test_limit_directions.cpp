@@ -159,7 +159,7 @@ TEST_CASE("campbell: a frequency is in doubt from a damping ratio of 0.4 on", "[
         CHECK(diagram.damping_ratio(diagram.branches[0], 0) == Approx(zeta).epsilon(1e-9));
         CHECK(diagram.branches[0].doubtful[0] == (zeta > heavy_damping));
         CHECK_FALSE(diagram.branches[1].doubtful[0]);
-        CHECK_THAT(table(diagram), Catch::Contains("heavily damped (from 40 % on)"));
+        CHECK((table(diagram).find("heavily damped (from 40 % on)") != std::string::npos) == (zeta > heavy_damping));
     }
 }
 

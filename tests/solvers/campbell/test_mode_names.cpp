@@ -42,10 +42,12 @@ TEST_CASE("mode names: a renamed diagram has them everywhere but in its families
     branch.family = "tower fore-aft";
     branch.mode = {-1, 0};
     branch.mostly = {"", "1st tower side-side"};
+    branch.doubt = {"hardly whirls", "mostly 1st tower side-side"};
     diagram.branches.push_back(branch);
     const solvers::Campbell named = solvers::renamed(diagram, solvers::NameStyle::community);
     CHECK(&named.branch("1st Tower FA") == &named.branches.front());
     CHECK(named.branches.front().family == "tower fore-aft");
     CHECK(named.branches.front().mostly == std::vector<std::string>{"", "1st Tower SS"});
+    CHECK(named.branches.front().doubt == std::vector<std::string>{"hardly whirls", "mostly 1st Tower SS"});
     CHECK(solvers::renamed(diagram, solvers::NameStyle::descriptive).branches.front().name == branch.name);
 }
