@@ -40,7 +40,7 @@ constexpr std::array examples{
     std::pair("cardan campbell MODEL --wind 4:24:2", "the same in the wind, with the damping of the air"),
     std::pair("cardan steady MODEL --wind 4:24:2", "power curve, deflections and loads"),
     std::pair("cardan simulate MODEL --wind 12", "motion in a wind of 12 m/s"),
-    std::pair("cardan plot MODEL_history.h5 --list", "channels of the result, to be drawn with --channel")};
+    std::pair("cardan plot A.h5 B.h5", "two results of one kind over each other")};
 
 void print_usage(std::FILE* to) {
     std::fprintf(to, "Wind turbines as multibody systems.\nUsage: cardan COMMAND [OPTIONS]\n\nCommands:\n");

@@ -53,7 +53,7 @@ void take_air(turbines::Machine& machine, const AirArguments& arguments, Machine
         throw InputError("--air", "value", text("none, and ", machine.no_air),
                          "FILE, the main file of AeroDyn, or windIO");
     machine.no_air.clear();
-    print_notes(machine.air->notes, options);
+    print_notes(machine.air->notes, options, "notes on the air");
 }
 
 turbines::WindSource wind_source(const std::string& given) {

@@ -62,7 +62,7 @@ void write_yaml(ConvertArguments& a) {
     if (std::filesystem::equivalent(a.to, a.machine.model, error))
         throw InputError("to", "file", a.to, "another one than the machine's");
     const turbines::Machine machine = prepared_machine(a.machine);
-    if (machine.air) print_notes(machine.air->notes, a.machine);
+    if (machine.air) print_notes(machine.air->notes, a.machine, "notes on the air");
     turbines::write_machine(machine, a.to);
     std::cout << a.to << ": " << machine.description.name << "\n";
     if (!machine.air) std::cout << "note: without air: " << machine.no_air << "\n";

@@ -28,7 +28,9 @@ void declare(CommandLine& app, PlotArguments& a) {
                    "history, Campbell diagram or operating points over the wind .h5, or table .csv: "
                    "time[s],NAME[UNIT],...; several of one kind: over each other")
         .required();
-    app.add_option("--channel", a.channels, "name or alias; * stands for any text; may be repeated").one_word();
+    app.add_option("--channel", a.channels,
+                   "name or alias; * stands for any text; may be repeated (default: speeds, deflections and loads)")
+        .one_word();
     app.add_flag("--list", a.list, "print the channels and end");
     app.add_option("--out", a.out,
                    "prefix of the files (default: names of the files, joined by _and_, in the current folder)");

@@ -100,6 +100,26 @@ std::string unit(const solvers::ShownUnits& shown) {
     return shown.units == "1" ? "" : text(" ", solvers::display_text(shown.units));
 }
 
+// Where none is asked for: what there is of speeds, deflections and loads, else the first ones.
+std::vector<std::string> usual(const Histories& histories) {
+    constexpr std::size_t first = 6;
+    std::vector<std::string> names;
+    for (const char* name :
+         {"wind speed", "rotor speed", "generator torque", "blade 1 pitch angle", "tower top fore-aft displacement",
+          "tower base moment y", "blade 1 tip out-of-plane deflection", "blade 1 root moment y"})
+        for (const auto& [file, history] : histories) {
+            if (!has(history->channels, name)) continue;
+            names.push_back(history->channels[history->index(name)].name);
+            break;
+        }
+    const std::vector<Channel>& all = histories.front().history->channels;
+    if (names.empty())
+        for (std::size_t i = 0; i < std::min(first, all.size()); ++i) names.push_back(all[i].name);
+    if (names.empty()) throw InputError("--channel", "channels of the history", 0, "at least one");
+    std::cout << "the usual channels; --list shows all, --channel draws others\n";
+    return names;
+}
+
 // "A: rotor speed", of one history "rotor speed".
 std::string with_file(const std::string& channel, const std::string& history, const Histories& histories) {
     return histories.size() > 1 ? text(history, ": ", channel) : channel;
@@ -217,9 +237,8 @@ int draw_histories(const PlotArguments& a, const std::vector<std::string>& names
         for (const solvers::History& history : loaded) print_list(history);
         return 0;
     }
-    const std::vector<std::string> names = chosen(histories, a.channels);
-    if (names.empty() && !a.energy)
-        throw InputError("--channel", "channels", "none", "at least one, or --energy; --list shows them");
+    std::vector<std::string> names = chosen(histories, a.channels);
+    if (names.empty() && !a.energy) names = usual(histories);
     if (a.energy && histories.size() > 1) throw InputError("--energy", "number of histories", histories.size(), "1");
     solvers::HistoryPlotOptions options;
     options.title = a.title;

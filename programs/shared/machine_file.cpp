@@ -82,7 +82,7 @@ std::string in_words(const SharedNote& one) {
 }
 
 // "notes: 83 entries of 5 files are not used, 4 are used otherwise; --notes lists them"
-std::string counted(const std::vector<SharedNote>& notes) {
+std::string counted(const std::vector<SharedNote>& notes, const char* what_they_are) {
     using Kind = turbines::FileNote::Kind;
     constexpr std::array words{std::pair(Kind::unused, "not used"), std::pair(Kind::otherwise, "used otherwise"),
                                std::pair(Kind::left_out, "left out")};
@@ -94,7 +94,7 @@ std::string counted(const std::vector<SharedNote>& notes) {
         for (const SharedNote& one : notes)
             if (one.note.kind == kind) entries += one.note.entries();
         if (entries == 0) continue;
-        line += text(line.empty() ? "notes: " : ", ", entries);
+        line += text(line.empty() ? text(what_they_are, ": ") : ", ", entries);
         if (line.find(" of ") == std::string::npos)
             line += text(entries == 1 ? " entry of " : " entries of ", files.size(),
                          files.size() == 1 ? " file" : " files");
@@ -119,15 +119,15 @@ std::string dofs_in_words(const turbines::Machine& model) {
 
 }  // namespace
 
-void print_notes(const std::vector<turbines::FileNote>& notes, bool all) {
+void print_notes(const std::vector<turbines::FileNote>& notes, bool all, const char* what) {
     const std::vector<SharedNote> once = shared(notes);
     for (const SharedNote& one : once)
         if (all || one.note.keyword == turbines::unusual_entries) std::cout << "note: " << in_words(one) << "\n";
-    if (!all && !once.empty()) std::cout << counted(once);
+    if (!all && !once.empty()) std::cout << counted(once, what);
 }
 
-void print_notes(const std::vector<turbines::FileNote>& notes, MachineOptions& options) {
-    print_notes(notes, options.notes);
+void print_notes(const std::vector<turbines::FileNote>& notes, MachineOptions& options, const char* what) {
+    print_notes(notes, options.notes, what);
     std::ranges::copy_if(notes, std::back_inserter(options.left_out), [](const turbines::FileNote& note) {
         return note.kind == turbines::FileNote::Kind::left_out;
     });

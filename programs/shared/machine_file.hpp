@@ -40,9 +40,10 @@ void add_machine_options(CommandLine& app, MachineOptions& options);
 
 /// Prints notes, if `all` are wanted, else how many there are, in a line, and those on unusual entries. What several
 /// files have alike, as those of blades, is one note.
-void print_notes(const std::vector<turbines::FileNote>& notes, bool all);
+/// @param what  they are: the begin of the line
+void print_notes(const std::vector<turbines::FileNote>& notes, bool all, const char* what = "notes");
 /// The same, and keeps what is left out.
-void print_notes(const std::vector<turbines::FileNote>& notes, MachineOptions& options);
+void print_notes(const std::vector<turbines::FileNote>& notes, MachineOptions& options, const char* what = "notes");
 /// In a line, behind a result: what is left out.
 void print_left_out(const MachineOptions& options);
 
