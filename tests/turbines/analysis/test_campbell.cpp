@@ -210,12 +210,9 @@ TEST_CASE("campbell and linear model of a machine: errors name the field", "[pro
     };
     diagram_refused({.rotor_speeds = {1}, .winds = {8}}, {"CampbellSettings::rotor_speeds", "none beside winds"});
     diagram_refused({.winds = {8}, .pitch_schedule = {{1, 0}}}, {"CampbellSettings::pitch_schedule", "none beside"});
-<<<<<<< HEAD
     diagram_refused({.winds = {8}, .like = "base.h5"}, {"CampbellSettings::like", "base.h5", "none beside winds"});
-=======
     diagram_refused({.rotor_speeds = {-1}}, {"CampbellSettings::rotor_speeds", "rpm", ">= 0"});
     diagram_refused({.winds = {not_a_number}}, {"CampbellSettings::winds", "nan"});
->>>>>>> 59570cd4348a8343d63a6599ac34a0b397343536
     diagram_refused({.pitch_schedule = {{2, 0}, {1, 0}}}, {"CampbellSettings::pitch_schedule", "rising"});
     diagram_refused({.max_frequency_hz = 0}, {"CampbellSettings::max_frequency_hz", "= 0"});
     diagram_refused({.harmonics = 0}, {"CampbellSettings::harmonics", "1 ... 200"});
