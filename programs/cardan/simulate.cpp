@@ -120,9 +120,8 @@ std::vector<solvers::HistoryPanel> spectra_of(const turbines::MachineLayout& lay
     return spectra;
 }
 
-turbines::Simulation simulation(SimulateArguments& a, const turbines::Machine& machine) {
-    const turbines::SimulationSettings settings = settings_of(a);
-    if (!a.run.resume && !a.list) check_outputs(a.run.out, run_outputs);
+turbines::Simulation simulation(SimulateArguments& a, const turbines::SimulationSettings& settings,
+                                const turbines::Machine& machine) {
     turbines::Simulation run(machine, settings);
     keep_taken(run.settings(), a);
     if (a.machine.summary) std::cout << run.turbine().summary() << "\n";
@@ -130,15 +129,17 @@ turbines::Simulation simulation(SimulateArguments& a, const turbines::Machine& m
 }
 
 int run(SimulateArguments& a, const CommandLine& command) {
-    require_positive("--step", "value", a.run.step);
-    if (a.duration) require_positive("--duration", "value", *a.duration);
+    if (a.duration) a.run.duration = *a.duration;
+    check_run_options(a.run);
     a.machine.gravity = !a.no_gravity;
     if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
+    const turbines::SimulationSettings settings = settings_of(a);
+    if (!a.run.resume && !a.list) check_outputs(a.run.out, run_outputs);
     turbines::Machine machine = prepared_machine(a.machine);
     const bool in_air = a.wind.empty() ? machine.run && machine.run->air : a.wind != "none";
     // Air of the model's own run that it cannot have is the library's to refuse.
     if (in_air && (machine.air || !a.air.file.empty() || !a.wind.empty())) take_air(machine, a.air, a.machine);
-    turbines::Simulation simulated = simulation(a, machine);
+    turbines::Simulation simulated = simulation(a, settings, machine);
     if (a.list) return print(simulated.channels()), 0;
     const turbines::MachineLayout& layout = simulated.turbine().layout();
     const std::vector<solvers::HistoryPanel> pictures = panels(a, layout, simulated.channels());

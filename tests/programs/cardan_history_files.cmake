@@ -13,7 +13,7 @@ add_example_test(example_history_repair cardan 0 "broken off, was completed; 16 
 add_example_test(example_history_repaired cardan 0 "in order, nothing was changed" repair history_finished.h5)
 set_tests_properties(example_history_repair PROPERTIES DEPENDS example_history_broken)
 add_example_test(example_history_help cardan 0 "campbell" --help)
-add_example_test(example_history_no_command cardan 2 "there is no command" "")
+add_example_test(example_history_no_command cardan 2 "cardan info MODEL " "")
 add_example_test(example_history_unknown_option cardan 2 "--nonsense" info history_finished.h5 --nonsense)
 add_example_test(example_history_no_file cardan 1 "no/such.h5: cannot be opened: No such file" info no/such.h5)
 add_example_test(example_history_no_history cardan 1 "cannot be opened as an HDF5 file" repair ${CMAKE_CURRENT_LIST_FILE})

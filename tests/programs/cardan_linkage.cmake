@@ -12,5 +12,5 @@ add_example_test(example_linkage_campbell cardan 0
 add_example_test(example_linkage_modes cardan 0 "1st blade edge .forward.*files" modes linked_pitch.yaml --rpm 20 ${coarse} --out example_linkage_modes)
 add_example_test(example_linkage_simulate cardan 0 "energy lost.*ok" simulate linked_pitch.yaml ${coarse} --duration 1 --out example_linkage_simulate)
 add_example_test(example_linkage_steady cardan 0 "blade 1 root moment y.*files" steady linked_pitch.yaml --rpm 20 ${coarse} --out example_linkage_steady)
-add_example_test(example_linkage_linearise cardan 0 "modes of A and of the Campbell.*24 files" linearise linked_pitch.yaml --rpm 20 ${coarse}
+add_example_test(example_linkage_linearise cardan 0 "modes of A and of the Campbell.*24 files" linearise linked_pitch.yaml --lin --rpm 20 ${coarse}
                  --out example_linkage_linearise)

@@ -41,7 +41,7 @@ grep -q "stopping, and keeping what is done" told.err || fail "it does not say t
 grep -qE "^files: told.h5" told.log || fail "$(cat told.log)"
 
 # Nothing is done yet: at once.
-begin before steady nrel5mw --wind 8,12 --harmonics 40 --blade-elements 12
+begin before steady nrel5mw --wind 8,12 --harmonics 120 --blade-elements 30
 sleep 1
 kill -INT "$pid"
 ended 130 before

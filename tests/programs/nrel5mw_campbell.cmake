@@ -15,7 +15,7 @@ add_example_test(example_nrel5mw_variant nrel5mw_campbell 2 "--variant" --varian
 add_example_test(example_nrel5mw_gravity_free nrel5mw_campbell 2 "excludes --g" --gravity --generator-free)
 add_example_test(example_nrel5mw_bad_rpm nrel5mw_campbell 1 "--rpm: value = 0:x:1; allowed: numbers and FIRST:LAST:STEP" --rpm 0:x:1)
 add_example_test(example_nrel5mw_two_rpm nrel5mw_campbell 1 "--rpm: value = 0:5; allowed" --rpm 0:5)
-add_example_test(example_nrel5mw_falling_rpm nrel5mw_campbell 1 ">= 0 and increasing" --rpm 6,0 --blade-elements 1)
+add_example_test(example_nrel5mw_falling_rpm nrel5mw_campbell 1 "FIRST <= LAST" --rpm 6:0:1 --blade-elements 1)
 add_example_test(example_nrel5mw_elements nrel5mw_campbell 1 "number of elements = 0; allowed: 1 ... 1000" --blade-elements 0)
 add_example_test(example_nrel5mw_power nrel5mw_campbell 1 "--power: value .MW. = -15; allowed: finite and > 0" --power=-15)
 add_example_test(example_nrel5mw_unwritable nrel5mw_campbell 1 "the folder 'no/such/folder' does not exist" --blade-elements 1 --out

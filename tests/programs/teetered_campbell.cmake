@@ -7,7 +7,7 @@ add_example_test(example_teetered_gravity teetered_campbell 0 "2nd blade flap .s
 add_example_test(example_teetered_help teetered_campbell 0 "--tower-ratio" --help)
 add_example_test(example_teetered_unknown_option teetered_campbell 2 "--nonsense" --nonsense)
 add_example_test(example_teetered_rpm teetered_campbell 1 "--rpm: value = 0:x:1; allowed: numbers and FIRST:LAST:STEP" --rpm 0:x:1)
-add_example_test(example_teetered_negative_rpm teetered_campbell 1 ">= 0 and increasing" --rpm=-10:10:5 ${one_element})
+add_example_test(example_teetered_negative_rpm teetered_campbell 1 ">= 0, FIRST <= LAST" --rpm=-10:10:5 ${one_element})
 add_example_test(example_teetered_ratio teetered_campbell 1 "ratio of tower to blade rigidity = -2; allowed: finite and > 0" --tower-ratio=-2)
 add_example_test(example_teetered_excludes teetered_campbell 2 "excludes" --rigid-tower --tower-ratio 10)
 add_example_test(example_teetered_limits teetered_campbell 2 "excludes" --max-per-rev 3 --max-frequency 10)

@@ -22,7 +22,7 @@ add_example_test(example_unknown_option wt600_campbell 2 "--nonsense" --nonsense
 add_example_test(example_bad_rpm wt600_campbell 1 "--rpm: value = 0:x:1; allowed: numbers and FIRST:LAST:STEP" --rpm 0:x:1)
 add_example_test(example_nan_rpm wt600_campbell 1 "FIRST:LAST:STEP" --rpm 0:nan:1)
 add_example_test(example_endless_rpm wt600_campbell 1 "at most 100000" --rpm 0:40:1e-320)
-add_example_test(example_negative_rpm wt600_campbell 1 ">= 0 and increasing" --rpm=-10:10:5)
+add_example_test(example_negative_rpm wt600_campbell 1 ">= 0, FIRST <= LAST" --rpm=-10:10:5)
 add_example_test(example_max_frequency wt600_campbell 1 "largest frequency" --rpm 0 --max-frequency 0)
 add_example_test(example_unwritable wt600_campbell 1 "the folder 'no/such/folder' does not exist" --rpm 0 --out no/such/folder/x)
 string(REPEAT long_name_ 40 long_name)

@@ -113,6 +113,11 @@ solvers::SampledController library_controller(const Controller& own, const Turbi
 
 ControlledMachine controlled_machine(const Controller& own, const Turbine& machine,
                                      const ControlledMachineOptions& options) {
+    const bool whole = own.acts() && own.period && own.generator_efficiency &&
+                       (own.kind == Controller::Kind::library || own.parameters);
+    if (!whole)
+        throw InputError("controlled_machine()", "controller", "without kind, period, efficiency or parameters",
+                         "with all of them, as of checked()");
     const ActuatedForces actuated(machine, own.actuators);
     const bool individual = own.kind == Controller::Kind::library;
     ForceSet forces = actuated.with_inputs(options.torque, individual, options.more_torque);

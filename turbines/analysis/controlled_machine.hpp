@@ -48,6 +48,7 @@ struct ControlledMachine {
     std::string pitch;      ///< how the blades follow, in a line
 };
 /// A library turns the nacelle where its yaw is prescribed.
+/// @param own      with all that it has to say: checked()
 /// @param machine  whose pitch is prescribed or on springs: make_pitch_drives()
 /// @throws FileError for a library that cannot be loaded or has no function DISCON
 ControlledMachine controlled_machine(const Controller& own, const Turbine& machine,

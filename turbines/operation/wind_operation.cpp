@@ -145,7 +145,8 @@ WindPoint WindOperation::solve(const Operation& operation, const Matrix& start) 
             take(found);
             point.remainder = found.remainder;
             point.note = found.note;
-            for (int i = 0; i < options_.azimuths; ++i)
+            const bool begun = found.coefficients.size() > 0;  // else cancelled before there was anything
+            for (int i = 0; begun && i < options_.azimuths; ++i)
                 point.revolution.push_back(found.at(2 * pi * i / options_.azimuths));
             point.coefficients = found.coefficients;
         }

@@ -98,7 +98,10 @@ turbines::ControlledMachine sampled_machine(const Plant& plant, const std::funct
     ForceSet forces = with_load(plant.turbine.forces(), rotor_in_wind(plant, wind));
     const ControlSignal more = add_damper(damper, plant, forces);
     turbines::Controller controller = turbines::Controller::baseline();
+    controller.parameters = turbines::nrel5mw_controller();
+    controller.period = controller.parameters->period;
     controller.generator_efficiency = 0.944;
+    controller.individual_pitch = false;
     controller.actuators = actuators;
     return turbines::controlled_machine(controller, plant.turbine.with_forces(forces),
                                         {.torque = plant.point.torque, .more_torque = more});

@@ -112,9 +112,12 @@ TEST_CASE("campbell of a machine in the wind: what is cancelled has the modes of
         REQUIRE(part.points.size() == static_cast<std::size_t>(wanted));
         CHECK(part.parameters == std::vector<double>(whole.parameters.begin(), whole.parameters.begin() + wanted));
         for (std::size_t i = 0; i < part.points.size(); ++i) {
-            REQUIRE(part.points[i].modes.size() == whole.points[i].modes.size());
-            for (std::size_t m = 0; m < part.points[i].modes.size(); ++m)
-                CHECK(part.points[i].modes[m].mode.eigenvalue == whole.points[i].modes[m].mode.eigenvalue);
+            // Of modes about the largest frequency more or fewer are kept, as branches go on.
+            const auto &some = part.points[i].modes, &all = whole.points[i].modes;
+            CHECK(some.size() + 2 >= all.size());
+            for (const auto& one : some)
+                CHECK(std::ranges::any_of(
+                    all, [&](const auto& other) { return other.mode.eigenvalue == one.mode.eigenvalue; }));
         }
     }
 }

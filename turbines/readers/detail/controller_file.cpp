@@ -136,7 +136,7 @@ ControllerGains gains_of(const ControllerFile& file) {
     out.max_pitch = of("PC_MaxPit");
     out.max_pitch_rate = of("PC_MaxRat");
     constexpr auto angles = "PC_GS_angles";
-    if (!file.number(angles)) return out;
+    if (!file.number(angles) || !file.number("PC_GS_KP") || !file.number("PC_GS_KI")) return out;
     const double announced = file.number("PC_GS_n").value_or(static_cast<double>(file.count(angles)));
     if (!(announced >= 1 && announced <= 1e6)) file.fail("PC_GS_n", text(announced, "; allowed: 1 ... 1e6"));
     const auto count = static_cast<std::size_t>(announced);
