@@ -11,12 +11,12 @@
 namespace cardan::testing::tower_machines {
 
 inline const SteadyWind twisted{.speed = 10,
-                         .shear = Shear::power,
-                         .exponent = 0.2,
-                         .direction = 0.25,
-                         .veer = 0.001,
-                         .upflow = 0.08,
-                         .lateral = 0.001};
+                                .shear = Shear::power,
+                                .exponent = 0.2,
+                                .direction = 0.25,
+                                .veer = 0.001,
+                                .upflow = 0.08,
+                                .lateral = 0.001};
 
 /// Tower of the NREL 5 MW machine: straight taper.
 inline constexpr double top = 87.6, thick = 6, thin = 3.87, coefficient = 0.6;
