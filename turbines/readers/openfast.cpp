@@ -62,7 +62,11 @@ void set_run(OpenFastFile& main, ModelRun& run) {
         return std::filesystem::absolute(path).lexically_normal().string();
     };
     run.file = absolute(main.name());
-    if (main.has("TMax")) run.duration = main.number("TMax");
+    try {
+        if (main.has("TMax")) run.duration = main.number("TMax");
+    } catch (const ParseError&) {
+        main.note("TMax", "not one number: without it a run lasts as long as it is told");
+    }
     run.air = main.number_or("CompAero", 0) != 0;
     if (run.air && main.number_or("CompInflow", 0) != 0) run.wind = absolute(main.path("InflowFile"));
     run.controlled = main.number("CompServo") != 0;

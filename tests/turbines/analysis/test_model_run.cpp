@@ -54,6 +54,8 @@ TEST_CASE("model run: duration, wind and start are the model's", "[property]") {
     Simulation own(machine, coarse());
     CHECK(own.duration() == 0.3);
     CHECK(own.duration({.duration = 2.0}) == 2);
+    model.folder.replace("small.fst", "0.3   TMax", "0.3 0   TMax");
+    CHECK_FALSE(model.read().run->duration);
     CHECK(own.settings().rotor_speed == Approx(45 * units::rpm));
     CHECK(own.settings().machine.pitch == Approx(1.5 * units::degree));
     CHECK(own.settings().azimuth == Approx(30 * units::degree));
