@@ -73,21 +73,17 @@ Generator of_torque_law(OpenFastFile& file) {
     return {file.number("VS_RtGnSp") * units::rpm, 0, torque_of(file, "VS_RtTq"), in_file("VS_RtGnSp", file.name())};
 }
 
-// Near the synchronous speed: the simple one (GenModel 1), or by Thevenin's equivalent circuit (2). Without its numbers
-// there is none.
-SlippingGenerator slipping_generator(OpenFastFile& file) {
+// Near the synchronous speed, which is the least one of an induction generator: the simple one (GenModel 1), or by
+// Thevenin's equivalent circuit (2). Without its numbers there is none.
+SlippingGenerator slipping_generator(OpenFastFile& file, const Generator& machine) {
     const auto of = [&file](const char* keyword) { return file.number_or(keyword, 0); };
-    const double model = of("GenModel");
-    if (model == 1 && of("SIG_SySp") > 0 && of("SIG_SlPc") > 0 && !is_placeholder(file, "SIG_SySp")) {
-        const double speed = of("SIG_SySp") * units::rpm;
-        return {speed, of("SIG_RtTq") / (speed * of("SIG_SlPc") / 100)};
-    }
-    if (model != 2 || !(of("TEC_NPol") > 0) || !(of("TEC_Freq") > 0) || !(of("TEC_RRes") > 0)) return {};
-    const double speed = 4 * pi * of("TEC_Freq") / of("TEC_NPol"), magnetising = of("TEC_MR"),
-                 circuit = std::hypot(of("TEC_SRes"), of("TEC_SLR") + magnetising);
-    if (!(circuit > 0)) return {};
+    const double synchronous = machine.least_speed, slip = machine.rated_speed - synchronous;
+    if (!(synchronous > 0)) return {};
+    if (slip > 0) return {synchronous, machine.torque / slip};
+    const double magnetising = of("TEC_MR"), circuit = std::hypot(of("TEC_SRes"), of("TEC_SLR") + magnetising);
+    if (of("GenModel") != 2 || !(of("TEC_RRes") > 0) || !(circuit > 0)) return {};
     const double voltage = of("TEC_VLL") * magnetising / circuit;  // line to line, behind the circuit
-    return {speed, voltage * voltage / (speed * speed * of("TEC_RRes"))};
+    return {synchronous, voltage * voltage / (synchronous * synchronous * of("TEC_RRes"))};
 }
 
 // 3 and others are routines of the user's.
@@ -111,12 +107,12 @@ void read_pitch(OpenFastFile& file, const std::optional<ControllerFile>& control
 }
 
 // @param acts  a library sets pitch or torque
-ModelController controller_of(OpenFastFile& file, bool acts) {
+ModelController controller_of(OpenFastFile& file, const Generator& machine, bool acts) {
     ModelController controller;
     const double efficiency = file.number_or("GenEff", 0) / 100;
     if (efficiency > 0 && efficiency <= 1) controller.generator_efficiency = efficiency;
     controller.individual_pitch = file.has("Ptch_Cntrl") && file.integer("Ptch_Cntrl", 0, 1) == 1;
-    if (file.number_or("VSContrl", 0) == 0) controller.generator = slipping_generator(file);
+    controller.generator = slipping_generator(file, machine);
     if (!acts) return controller;
     const auto path = [&file](const char* keyword) {
         if (!file.has(keyword) || file.word(keyword).empty()) return std::string();
@@ -164,7 +160,7 @@ ServoDyn read_servodyn(const std::filesystem::path& path) {
         file.left_out_unless(keyword, 0, "dampers and masses of structural control are not part of the model");
     for (const char* keyword : {"CompNTMD", "CompTTMD"})
         if (file.flag_or(keyword, false)) file.left_out(keyword, "tuned mass dampers are not part of the model");
-    servo.controller = controller_of(file, needed);
+    servo.controller = controller_of(file, machine, needed);
     if (controller) {
         servo.controller.gains = gains_of(*controller);
         servo.controller.gains.source = servo.operation.source;
