@@ -63,6 +63,10 @@ void VariableSpeed::check() const {
     if (!std::isfinite(fine_pitch)) throw InputError(here, "fine pitch [rad]", fine_pitch, "finite");
 }
 
+double VariableSpeed::speed_at(double wind, double radius) const {
+    return std::clamp(tip_speed_ratio * wind / radius, std::min(least_speed, rated_speed), rated_speed);
+}
+
 double best_tip_speed_ratio(const AeroBlade& blade, int blades, double cone, double pitch,
                             const RotorAirOptions& options) {
     const auto power = [&](double ratio) {
@@ -296,7 +300,7 @@ WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
 
 WindPoint WindOperation::at(double wind, const VariableSpeed& law) {
     law.check();
-    const double speed = std::clamp(law.tip_speed_ratio * wind / radius(), law.least_speed, law.rated_speed);
+    const double speed = law.speed_at(wind, radius());
     const double least = law.least_pitch_at(wind);
     // Beyond rated wind the least pitch may be far from where the machine runs.
     const bool beyond = last_operation_ && last_operation_->pitch > least && speed == law.rated_speed;

@@ -71,8 +71,8 @@ Operation RigidRotor::operation(double wind) const {
     if (!own.schedule.empty())
         return operation_at(own.schedule, std::clamp(wind, own.schedule.front().wind, own.schedule.back().wind));
     VariableSpeed law = variable_speed(own);
-    const double speed =
-        std::clamp(ratio() * wind / radius_, std::min(law.least_speed, law.rated_speed), law.rated_speed);
+    law.tip_speed_ratio = ratio();
+    const double speed = law.speed_at(wind, radius_);
     const double fine = law.least_pitch_at(wind);
     if (speed < law.rated_speed || power(wind, speed, fine) <= law.rated_power) return {wind, speed, fine};
     return {wind, speed, pitch_for(law.rated_power, wind, speed)};
