@@ -36,7 +36,7 @@ room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
 
 room(turbines/model SEES elements/cardan_beam) # description of a turbine, its mesh, assembly to a system, channels
 room(turbines/tables SEES mbs/base) # CSV; the tables of the machines, within the library
-room(turbines/readers SEES turbines/model turbines/tables elements/aerodynamics) # OpenFAST's files
+room(turbines/readers SEES turbines/model turbines/tables elements/aerodynamics elements/control) # OpenFAST's files
 room(turbines/yaml SEES turbines/readers USES libyaml) # our own files, windIO's
 room(turbines/aerodynamics SEES turbines/model turbines/tables elements/aerodynamics) # air on the blades and the tower of a machine
 room(turbines/machines SEES turbines/model turbines/tables elements/control) # 600 kW, teetered, NREL 5 MW

@@ -87,8 +87,7 @@ double own_optimum(const Machine& machine, const Ratings& rated) {
 }
 
 void set_gains(const Machine& machine, const Ratings& rated, VariableSpeedParameters& p, std::string& from) {
-    const std::vector<PitchGain>& given = machine.controller.gains.pitch_gains;
-    for (const PitchGain& one : given) p.gains.push_back({one.pitch, one.proportional, one.integral});
+    p.gains = machine.controller.gains.pitch_gains;
     if (!p.gains.empty()) return;
     p.gains = own_gains(machine, rated);
     from = text("gains of the pitch from the rotor's power over it, for a damping ratio of ", damping_ratio, " at ",

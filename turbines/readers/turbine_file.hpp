@@ -2,6 +2,7 @@
 /// What the readers of model files return: a description, and a note on everything in the files that it does not hold.
 #pragma once
 
+#include "elements/control/variable_speed_controller.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/model/description.hpp"
 #include "turbines/model/pitch_schedule.hpp"
@@ -66,27 +67,20 @@ struct FileOperation {
     std::string source = {};  ///< name of the file
 };
 
-/// Gains of a pitch controller at a pitch: pitch demand over the speed of the generator above its reference.
-struct PitchGain {
-    double pitch = 0;         ///< leading edge upwind, rad
-    double proportional = 0;  ///< s
-    double integral = 0;
-};
-
 /// Numbers of a controller of variable speed and pitch, on the shaft of the generator; 0 and empty: the file does not
 /// say.
 struct ControllerGains {
-    double corner_frequency = 0;              ///< of the filter of the generator's speed, rad/s
-    double min_speed = 0, rated_speed = 0;    ///< of the generator, rad/s
-    double optimal_gain = 0;                  ///< torque over the square of the speed, N m s^2/rad^2
-    double rated_torque = 0;                  ///< N m
-    double max_torque = 0;                    ///< N m
-    double max_torque_rate = 0;               ///< N m/s
-    bool constant_power = true;               ///< above rated speed; false: constant torque
-    std::vector<PitchGain> pitch_gains = {};  ///< rising
-    double min_pitch = 0, max_pitch = 0;      ///< rad
-    double max_pitch_rate = 0;                ///< rad/s
-    std::string source = {};                  ///< name of the file; empty: there is none
+    double corner_frequency = 0;               ///< of the filter of the generator's speed, rad/s
+    double min_speed = 0, rated_speed = 0;     ///< of the generator, rad/s
+    double optimal_gain = 0;                   ///< torque over the square of the speed, N m s^2/rad^2
+    double rated_torque = 0;                   ///< N m
+    double max_torque = 0;                     ///< N m
+    double max_torque_rate = 0;                ///< N m/s
+    bool constant_power = true;                ///< above rated speed; false: constant torque
+    std::vector<PitchGains> pitch_gains = {};  ///< rising
+    double min_pitch = 0, max_pitch = 0;       ///< rad
+    double max_pitch_rate = 0;                 ///< rad/s
+    std::string source = {};                   ///< name of the file; empty: there is none
 };
 
 /// A generator whose torque rises with the speed of its shaft: slope (speed - no_load_speed). Without slope there is

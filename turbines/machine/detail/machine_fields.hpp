@@ -151,9 +151,10 @@ void gains_fields(Archive& archive, Gains& g) {
     archive.optional_number("max_torque", g.max_torque);
     archive.optional_number("max_torque_rate", g.max_torque_rate);
     archive.optional_flag("constant_power", g.constant_power);
-    archive.optional_rows(
-        "pitch_gains", g.pitch_gains,
-        {{"pitch", &PitchGain::pitch}, {"proportional", &PitchGain::proportional}, {"integral", &PitchGain::integral}});
+    archive.optional_rows("pitch_gains", g.pitch_gains,
+                          {{"pitch", &PitchGains::pitch},
+                           {"proportional", &PitchGains::proportional},
+                           {"integral", &PitchGains::integral}});
     archive.optional_number("min_pitch", g.min_pitch);
     archive.optional_number("max_pitch", g.max_pitch);
     archive.optional_number("max_pitch_rate", g.max_pitch_rate);
