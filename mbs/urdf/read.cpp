@@ -1,5 +1,6 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
+#include "mbs/urdf/detail/massless_ends.hpp"
 #include "mbs/urdf/detail/reading.hpp"
 #include "mbs/urdf/urdf.hpp"
 
@@ -292,21 +293,21 @@ private:
         out_.joints.push_back(data);
     }
 
-    // A coordinate that moves nothing has no equation of motion.
-    void check_ends() const {
-        std::vector<bool> carries(out_.tree.bodies().size(), false);
-        for (const Tree::Body& body : out_.tree.bodies())
-            if (body.parent >= 0) entry(carries, body.parent) = true;
+    // A coordinate that moves nothing has no equation of motion, unless it follows one that has.
+    void check_ends() {
+        const std::vector<bool> carries = urdf_impl::carries_inertia(out_.tree);
         for (std::size_t k = 0; k < carries.size(); ++k) {
-            const BodySpec& body = out_.tree.bodies()[k].spec;
-            if (carries[k] || !body.inertia.is_massless()) continue;
+            if (carries[k]) continue;
             const JointEntry& joint = *joint_of_body_[k];
+            if (const std::string done = urdf_impl::couple_massless_end(out_, static_cast<int>(k)); !done.empty()) {
+                note(joint.line, text("joint ", done));
+                continue;
+            }
             const char* const mimic =
-                source_.getJoint(joint.name)->mimic ? ": that it mimics another joint gives its coordinate none" : "";
-            throw InputError(text(outline_.at(line_of_link_.at(joint.child)), "link '", joint.child,
-                                  "' ends a branch and is moved by joint '", joint.name,
-                                  "', but neither it nor a link fixed to it has an inertia; give it an <inertial>",
-                                  mimic));
+                source_.getJoint(joint.name)->mimic ? ", or one to the link of the joint that it mimics" : "";
+            throw InputError(text(
+                outline_.at(line_of_link_.at(joint.child)), "link '", joint.child, "' is moved by joint '", joint.name,
+                "', but neither it nor a link that it carries has an inertia; give it an <inertial>", mimic));
         }
     }
 

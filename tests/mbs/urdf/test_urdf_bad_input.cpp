@@ -64,18 +64,25 @@ TEST_CASE("urdf bad input: what is XML but no URDF robot is refused", "[property
 }
 
 TEST_CASE("urdf bad input: a link that moves and ends a branch needs an inertia", "[property]") {
-    refused_link("", {"arm.urdf:3: link 'arm' ends a branch", "joint 'hinge'", "<inertial>"});
+    refused_link("", {"arm.urdf:3: link 'arm' is moved by joint 'hinge'", "<inertial>"});
     for (const char* type : {"revolute", "prismatic", "planar", "floating"})
         refused(robot(ground_link + link_tag("arm", "") + joint_tag("hinge", type, "ground", "arm")),
-                {"arm.urdf:3: link 'arm' ends a branch", "joint 'hinge'"});
+                {"arm.urdf:3: link 'arm' is moved by joint 'hinge'"});
     // A frame on it does not help, an inertia welded to it does.
     const std::string moved = ground_link + link_tag("arm", "") + joint_tag("hinge", "continuous", "ground", "arm");
     refused(robot(moved + link_tag("tip", "") + joint_tag("bolt", "fixed", "arm", "tip")), {"arm.urdf:3: link 'arm'"});
     CHECK_NOTHROW(parse_urdf(robot(moved + link_tag("tip") + joint_tag("bolt", "fixed", "arm", "tip"))));
-    refused(robot(ground_link + link_tag("arm") + link_tag("finger", "") +
-                  joint_tag("hinge", "continuous", "ground", "arm") +
-                  joint_tag("slide", "prismatic", "arm", "finger", R"(<mimic joint="hinge"/>)")),
-            {"arm.urdf:4: link 'finger' ends a branch", "<inertial>: that it mimics another joint"});
+    // Mimics that end at no inertia: the other joint's own link has none, a circle of mimics, a joint that moves none.
+    const auto finger = [](const std::string& on) {
+        return link_tag("finger", "") + joint_tag("slide", "prismatic", on, "finger", R"(<mimic joint="hinge"/>)");
+    };
+    refused(robot(moved + link_tag("hand") + joint_tag("wrist", "continuous", "arm", "hand") + finger("hand")),
+            {"link 'finger' is moved by joint 'slide'", "or one to the link of the joint that it mimics"});
+    refused(robot(ground_link + link_tag("arm", "") +
+                  joint_tag("hinge", "continuous", "ground", "arm", R"(<mimic joint="slide"/>)") + finger("ground")),
+            {"is moved by joint 'hinge'", "<inertial>"});
+    refused(robot(ground_link + link_tag("arm") + joint_tag("hinge", "fixed", "ground", "arm") + finger("arm")),
+            {"link 'finger' is moved by joint 'slide'"});
 }
 
 TEST_CASE("urdf bad input: impossible inertias", "[property]") {

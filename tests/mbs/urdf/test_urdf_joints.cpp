@@ -1,9 +1,12 @@
 // Joints of URDF as coordinates of a tree: forward kinematics against products of elementary motions.
 #include "mbs/base/entry.hpp"
+#include "mbs/kernels/metric_factor.hpp"
 #include "mbs/loops/closure.hpp"
 #include "mbs/model/summary.hpp"
 #include "mbs/system/system.hpp"
 #include "tests/mbs/urdf/urdf_texts.hpp"
+
+#include <Eigen/LU>
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -178,6 +181,65 @@ TEST_CASE("urdf: limits, damping, friction and mimic come beside the tree", "[pr
                   {"joint data of 'first'", "fourth"});
     check_refused([&] { (void)mimic_couplings(model.tree, {{.coordinate = "first", .mimic = UrdfMimic{"first"}}}); },
                   {"first mimics first", "twice"});
+}
+
+namespace {
+
+// Motions that the mimics leave, one column for each independent joint, in the order of the model's coordinates.
+Matrix free_motions(const System& system) {
+    Workspace workspace(system.model);
+    const Vector q = Vector::Zero(system.model.size());
+    Matrix G(system.loops.size(), system.model.size());
+    system.loops.gradient<double>(kinematics(system.model, q, workspace), 0, q, G);
+    return Eigen::FullPivLU<Matrix>(G).kernel();
+}
+
+Matrix metric_at(const Model& model, const Vector& q) {
+    Workspace workspace(model);
+    Matrix g(model.size(), model.size());
+    metric(kinematics(model, q, workspace), g);
+    return g;
+}
+
+}  // namespace
+
+// The coupled metric is known without the follower: it moves nothing.
+TEST_CASE("urdf: a link without inertia that mimics another joint adds nothing to the coupled motion", "[analytic]") {
+    const std::string arm = link_tag("ground", "") + link_tag("arm") + link_tag("hand") +
+                            joint_tag("shoulder", "revolute", "ground", "arm", placed) +
+                            joint_tag("elbow", "prismatic", "arm", "hand", placed);
+    const Model alone(parse_urdf(robot(arm)).tree);
+    struct Follower {
+        const char *type, *on, *mimic;
+    };
+    const auto check = [&](const std::vector<Follower>& followers) {
+        std::string all = arm;
+        for (std::size_t i = 0; i < followers.size(); ++i)
+            all += link_tag(text("tip", i), "") + joint_tag(text("follower", i), followers[i].type, followers[i].on,
+                                                            text("tip", i), followers[i].mimic);
+        const UrdfModel read = parse_urdf(robot(all));
+        const System system(read.tree, {}, mimic_couplings(read.tree, read.joints));
+        const Vector q = Vector::LinSpaced(system.model.size(), 0.3, 0.8);
+        Vector q_alone(2);
+        CHECK(MetricFactor(system.model).factorise(metric_at(system.model, q)).ok());
+        Matrix motions = free_motions(system), leaders(2, 2);
+        REQUIRE(motions.cols() == 2);
+        for (const char* name : {"shoulder", "elbow"}) {
+            q_alone(alone.index(name)) = q(system.model.index(name));
+            leaders.row(alone.index(name)) = motions.row(system.model.index(name));
+        }
+        motions *= leaders.inverse();
+        const Matrix coupled = motions.transpose() * metric_at(system.model, q) * motions;
+        const Matrix expected = metric_at(alone, q_alone);
+        CHECK(max_abs(coupled - expected) < 1e-14 * max_abs(expected));
+    };
+    check({{"revolute", "hand", R"(<mimic joint="elbow" multiplier="-3" offset="0.2"/>)"}});
+    check({{"prismatic", "ground", R"(<mimic joint="shoulder" multiplier="0.01"/>)"}});
+    check({{"continuous", "arm", R"(<mimic joint="shoulder" multiplier="0"/>)"}});
+    // One on the other, one that mimics a follower, two of one leader.
+    check({{"revolute", "hand", R"(<mimic joint="shoulder" multiplier="2"/>)"},
+           {"revolute", "tip0", R"(<mimic joint="follower0" multiplier="-1"/>)"},
+           {"prismatic", "arm", R"(<mimic joint="elbow" multiplier="1000"/>)"}});
 }
 
 TEST_CASE("urdf: the viscous damping becomes force elements, Q = -d qd on the joint's own coordinate", "[analytic]") {
