@@ -29,18 +29,12 @@ void VariableSpeedParameters::check() const {
         if (!(gains[i].pitch > gains[i - 1].pitch))
             throw InputError(name, "pitch of the gains [rad]", text(gains[i - 1].pitch, ", ", gains[i].pitch),
                              "rising");
-    const double transition = transition_speed();
+    const double transition = torque_law().transition_speed();
     if (!(cut_in < optimum_from && optimum_from < transition && transition < rated_speed))
         throw InputError(name, "speeds of the torque curve [rad/s]",
                          text(cut_in, ", ", optimum_from, ", ", transition, ", ", rated_speed), "rising");
     if (!(least_pitch < largest_pitch))
         throw InputError(name, "range of the pitch [rad]", text(least_pitch, " ... ", largest_pitch), "rising");
-}
-
-// optimal_gain w^2 = slope (w - synchronous speed)
-double VariableSpeedParameters::transition_speed() const {
-    const double k = optimal_gain, a = slope();
-    return (a - std::sqrt(a * (a - 4 * k * synchronous_speed()))) / (2 * k);
 }
 
 VariableSpeedController::VariableSpeedController(VariableSpeedParameters parameters) : own_(std::move(parameters)) {
@@ -55,10 +49,7 @@ double VariableSpeedController::torque(double speed, double pitch) const {
     if (speed <= p.cut_in) return 0;
     if (speed < p.optimum_from)
         return p.optimal_gain * p.optimum_from * p.optimum_from * (speed - p.cut_in) / (p.optimum_from - p.cut_in);
-    const double transition = p.transition_speed();
-    const double torque =
-        speed < transition ? p.optimal_gain * speed * speed : p.slope() * (speed - p.synchronous_speed());
-    return std::min(torque, p.largest_torque);
+    return std::min(p.torque_law().at(speed).torque, p.largest_torque);
 }
 
 PitchGains VariableSpeedController::gains_at(double pitch) const {

@@ -3,6 +3,8 @@
 /// power, constant power and a PI controller of the pitch above.
 #pragma once
 
+#include "elements/control/torque_law.hpp"
+
 #include <array>
 #include <cstddef>
 #include <span>
@@ -46,12 +48,8 @@ struct VariableSpeedParameters {
     double least_pitch = 0, largest_pitch = 0;  ///< rad
     double largest_pitch_rate = 0;              ///< rad/s
 
-    /// Where the line of the induction machine begins, rad/s.
-    double synchronous_speed() const { return rated_speed / (1 + slip); }
-    /// Its slope, N m s/rad.
-    double slope() const { return rated_power / rated_speed / (rated_speed - synchronous_speed()); }
-    /// Where it meets the parabola, rad/s.
-    double transition_speed() const;
+    /// From optimum_from up to the rated speed.
+    TorqueLaw torque_law() const { return {rated_speed, rated_power / rated_speed, optimal_gain, slip}; }
     /// @throws InputError naming the parameter
     void check() const;
 };

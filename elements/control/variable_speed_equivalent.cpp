@@ -34,9 +34,9 @@ public:
     TorqueCurve(const VariableSpeedParameters& p, double width)
         : p_(p),
           width_(width),
-          transition_(p.transition_speed()),
+          law_(p.torque_law()),
           floor_(std::max(p.cut_in, p.rated_power / p.largest_torque)),
-          bends_{p.cut_in, p.optimum_from, transition_, p.rated_speed},
+          bends_{p.cut_in, p.optimum_from, law_.transition_speed(), p.rated_speed},
           floor_bend_{floor_} {}
 
     void check() const {
@@ -64,14 +64,18 @@ private:
     Point piece(double w) const {
         if (w >= p_.rated_speed) return power_piece(w);
         if (w <= p_.cut_in) return {0, 0};
-        if (w >= transition_) return {p_.slope() * (w - p_.synchronous_speed()), p_.slope()};
-        if (w >= p_.optimum_from) return {p_.optimal_gain * w * w, 2 * p_.optimal_gain * w};
+        if (w >= p_.optimum_from) {
+            const TorqueLaw::At at = law_.at(w);
+            return {at.torque, at.by_speed};
+        }
         const double slope = p_.optimal_gain * p_.optimum_from * p_.optimum_from / (p_.optimum_from - p_.cut_in);
         return {slope * (w - p_.cut_in), slope};
     }
 
     VariableSpeedParameters p_;
-    double width_, transition_, floor_;
+    double width_;
+    TorqueLaw law_;
+    double floor_;
     std::vector<double> bends_, floor_bend_;
 };
 

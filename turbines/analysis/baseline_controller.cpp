@@ -102,7 +102,7 @@ void set_speeds(const Machine& machine, const Ratings& rated, VariableSpeedParam
     p.slip = slip;
     // The parabola must end below rated torque, so that the line of the slip meets it below rated speed.
     p.optimal_gain = std::min(p.optimal_gain, 0.95 * rated.torque / (p.rated_speed * p.rated_speed));
-    const double highest = p.transition_speed();
+    const double highest = p.torque_law().transition_speed();
     p.cut_in = std::min(least > 0 ? least : 0.4 * rated.speed, 0.9 * highest);
     p.optimum_from = std::min(optimum_ratio * p.cut_in, (p.cut_in + highest) / 2);
 }

@@ -73,6 +73,29 @@ Generator of_torque_law(OpenFastFile& file) {
     return {file.number("VS_RtGnSp") * units::rpm, 0, torque_of(file, "VS_RtTq"), in_file("VS_RtGnSp", file.name())};
 }
 
+// 3 and others are routines of the user's.
+enum class Control : std::uint8_t { generator_model = 0, torque_law = 1, controller = 5 };
+
+bool has_control(OpenFastFile& file, Control control) {
+    return file.number_or("VSContrl", 0) == static_cast<double>(control);
+}
+
+// Without its numbers there is none.
+TorqueLaw torque_law(OpenFastFile& file) {
+    if (!has_control(file, Control::torque_law)) return {};
+    for (const char* keyword : {"VS_RtGnSp", "VS_RtTq", "VS_Rgn2K", "VS_SlPc"})
+        if (!file.has(keyword) || is_placeholder(file, keyword)) return {};
+    const TorqueLaw law{file.number("VS_RtGnSp") * units::rpm, file.number("VS_RtTq"),
+                        file.number("VS_Rgn2K") / (units::rpm * units::rpm), file.number("VS_SlPc") / 100};
+    try {
+        law.check(file.name());
+    } catch (const InputError& error) {
+        file.left_out("VSContrl", text("no law of the torque: ", error.what()));
+        return {};
+    }
+    return law;
+}
+
 // Near the synchronous speed, which is the least one of an induction generator: the simple one (GenModel 1), or by
 // Thevenin's equivalent circuit (2). Without its numbers there is none.
 SlippingGenerator slipping_generator(OpenFastFile& file, const Generator& machine) {
@@ -85,9 +108,6 @@ SlippingGenerator slipping_generator(OpenFastFile& file, const Generator& machin
     const double voltage = of("TEC_VLL") * magnetising / circuit;  // line to line, behind the circuit
     return {synchronous, voltage * voltage / (synchronous * synchronous * of("TEC_RRes"))};
 }
-
-// 3 and others are routines of the user's.
-enum class Control : std::uint8_t { generator_model = 0, torque_law = 1, controller = 5 };
 
 Generator generator(OpenFastFile& file, const std::optional<ControllerFile>& controller) {
     const int control = file.integer("VSContrl", 0, 5);
@@ -113,6 +133,7 @@ ModelController controller_of(OpenFastFile& file, const Generator& machine, bool
     if (efficiency > 0 && efficiency <= 1) controller.generator_efficiency = efficiency;
     controller.individual_pitch = file.has("Ptch_Cntrl") && file.integer("Ptch_Cntrl", 0, 1) == 1;
     controller.generator = slipping_generator(file, machine);
+    controller.torque_law = torque_law(file);
     if (!acts) return controller;
     const auto path = [&file](const char* keyword) {
         if (!file.has(keyword) || file.word(keyword).empty()) return std::string();
@@ -138,8 +159,8 @@ ServoDyn read_servodyn(const std::filesystem::path& path) {
     OpenFastFile file = OpenFastFile::read(path);
     ServoDyn servo;
     servo.yaw = yaw_drive(file);
-    const bool needed = file.number_or("VSContrl", 0) == static_cast<int>(Control::controller) ||
-                        file.number_or("PCMode", 0) == static_cast<int>(Control::controller);
+    const bool needed =
+        has_control(file, Control::controller) || file.number_or("PCMode", 0) == static_cast<int>(Control::controller);
     const std::optional<ControllerFile> controller = needed ? controller_file(file) : std::nullopt;
     const Generator machine = generator(file, controller);
     read_pitch(file, controller, servo);

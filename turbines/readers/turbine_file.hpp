@@ -2,6 +2,7 @@
 /// What the readers of model files return: a description, and a note on everything in the files that it does not hold.
 #pragma once
 
+#include "elements/control/torque_law.hpp"
 #include "elements/control/variable_speed_controller.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/model/description.hpp"
@@ -100,6 +101,7 @@ struct ModelController {
     ControllerGains gains = {};       ///< of a ROSCO controller's file
     /// Where no controller sets the torque: an induction generator near its synchronous speed (GenModel of ServoDyn).
     SlippingGenerator generator = {};
+    TorqueLaw torque_law = {};  ///< likewise, of a generator of variable speed (VSContrl 1)
 };
 
 /// The run in time that a model describes beside the machine, as its main file has it. Where the files do not say:

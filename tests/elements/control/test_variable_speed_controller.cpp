@@ -20,9 +20,9 @@ TEST_CASE("variable-speed controller: the torque curve of the NREL 5 MW machine"
     CHECK(torque(670) == 0);
     CHECK(torque(1000) == Approx(25576.4).epsilon(1e-6));
     // Continuous at all bends; constant power above rated speed and at a pitch above 1 deg.
-    for (const double w : {670 * units::rpm, 871 * units::rpm, p.transition_speed(), p.rated_speed})
+    for (const double w : {670 * units::rpm, 871 * units::rpm, p.torque_law().transition_speed(), p.rated_speed})
         CHECK(controller.torque(w * (1 + 1e-9), 0) == Approx(controller.torque(w * (1 - 1e-9), 0)).margin(1e-2));
-    CHECK(p.transition_speed() * units::to_rpm == Approx(1136.5).epsilon(1e-3));
+    CHECK(p.torque_law().transition_speed() * units::to_rpm == Approx(1136.5).epsilon(1e-3));
     CHECK(controller.torque(130, 0) * 130 == Approx(5.29661e6).epsilon(1e-12));
     CHECK(controller.torque(115, 2 * units::degree) * 115 == Approx(5.29661e6).epsilon(1e-12));
 }

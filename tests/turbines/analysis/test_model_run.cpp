@@ -135,4 +135,35 @@ TEST_CASE("model run: without a controller the induction generator of ServoDyn b
     CHECK(thevenin.settings().generator_slope == Approx(torque(1e-7) / (1e-7 * w)).epsilon(1e-5));
 }
 
+// At 1125 rpm on the line of 5 % slip, which begins at 1150 / 1.05 rpm and reaches 800 N m at 1150 rpm.
+TEST_CASE("model run: without a controller the law of variable speed of ServoDyn brakes", "[analytic]") {
+    const Model model;
+    const std::string servo = test::bytes_of(model.folder / "small_ServoDyn.dat");
+    const auto with = [&](const std::string& gain) {
+        model.folder.write("small_ServoDyn.dat", servo + "\n" + gain + " VS_Rgn2K - N m/rpm^2\n5 VS_SlPc - %\n");
+        return model.read();
+    };
+    const Machine machine = with("2e-4"), again = parse_machine(to_yaml(machine), "m.yaml");
+    CHECK(again.controller.torque_law.slip == 0.05);
+    Simulation run(again, coarse());
+    CHECK(says(run, "law of variable speed of ServoDyn, 800 N m from 1150 rpm on"));
+    const double speed = 45 * run.turbine().layout().gear_ratio;  // rpm
+    REQUIRE(speed == 1125);
+    const solvers::History history = run.record({.duration = 0.02, .step = 0.01}).history;
+    const auto at_start = [&](const char* channel) { return history.values[history.index(channel)][0]; };
+    CHECK(at_start("generator torque") == Approx(800 * (1125 - 1150 / 1.05) / (1150 - 1150 / 1.05)).epsilon(1e-9));
+    CHECK(at_start("generator power") == Approx(at_start("generator torque") * speed * units::rpm).epsilon(1e-9));
+    // A torque of one's own goes before it, a law that is none is left out with its reason.
+    CHECK_FALSE(says(Simulation(again,
+                                [] {
+                                    SimulationSettings own = coarse();
+                                    own.generator_torque = 100;
+                                    return own;
+                                }()),
+                     "law of variable speed"));
+    const Machine none = with("1");
+    CHECK_FALSE(none.controller.torque_law.acts());
+    CHECK(test::has_note(none.notes, "VSContrl", "optimal gain"));
+}
+
 }  // namespace cardan::testing::model_run_tests

@@ -46,7 +46,7 @@ std::vector<std::string> names_of_library(const path& given) {
 
 // Empty: there is none.
 path library_beside(const Machine& machine) {
-    const path given = machine.controller.library;
+    path given = machine.controller.library;
     if (is_library_here(given)) return given;
     for (const path& folder :
          {given.parent_path(), path(machine.controller.input).parent_path(), path(machine.run->file).parent_path()}) {
@@ -161,10 +161,31 @@ void take_operation(const Machine& machine, SimulationSettings& s, const Report&
                                                      " deg, as the machine runs in ", rounded(wind), " m/s")});
 }
 
+namespace {
+
+bool takes_generator(const Machine& machine, const SimulationSettings& s) {
+    return machine.run && machine.run->controlled && !s.controller.acts() && !s.generator_torque &&
+           s.generator_slope == 0 && dofs_of(machine.description).generator;
+}
+
+}  // namespace
+
+TorqueLaw torque_law_of(const Machine& machine, const SimulationSettings& s) {
+    if (!takes_generator(machine, s)) return {};
+    const TorqueLaw& own = machine.controller.torque_law;
+    if (own.acts()) own.check("torque_law");
+    return own;
+}
+
 void take_generator(const Machine& machine, SimulationSettings& s, const Report& report) {
-    if (!machine.run || !machine.run->controlled || s.controller.acts() || s.generator_torque ||
-        s.generator_slope != 0 || !dofs_of(machine.description).generator)
+    if (!takes_generator(machine, s)) return;
+    if (const TorqueLaw law = torque_law_of(machine, s); law.acts()) {
+        report_remark(report,
+                      {Remark::Kind::taken,
+                       text("generator: law of variable speed of ServoDyn, ", rounded(law.rated_torque), " N m from ",
+                            rounded(law.rated_speed * units::to_rpm), " rpm on, on its own shaft")});
         return;
+    }
     const SlippingGenerator& own = machine.controller.generator;
     if (own.slope == 0) {
         if (!s.wind->is_none())

@@ -24,7 +24,13 @@ void take_controller(const Machine& machine, Controller& controller, const Repor
 /// @param settings  in and out
 void take_operation(const Machine& machine, SimulationSettings& settings, const Report& report);
 
-/// Without a controller: the torque of the model's own generator at the start, and its slope.
+/// Without a controller and a torque of one's own: the law of the model's generator; one that never acts if there is
+/// none.
+/// @param settings  with a controller that is known
+/// @throws InputError for a law that is none
+TorqueLaw torque_law_of(const Machine& machine, const SimulationSettings& settings);
+
+/// Without a controller: the torque of the model's own induction generator at the start, and its slope.
 /// @param settings  in and out, with the rotor speed
 void take_generator(const Machine& machine, SimulationSettings& settings, const Report& report);
 

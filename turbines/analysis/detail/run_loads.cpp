@@ -9,19 +9,30 @@
 
 namespace cardan::turbines {
 
-Turbine with_generator(const Turbine& turbine, const ConstantGenerator& generator) {
+namespace {
+
+std::string in_words(const GeneratorLoad& generator) {
+    if (const TorqueLaw& law = generator.law; law.acts())
+        return text(law.optimal_gain, " N m s^2 speed^2, from ", law.transition_speed(), " rad/s on ", law.slope(),
+                    " N m s/rad (speed - ", law.synchronous_speed(), " rad/s), at most ", law.rated_torque, " N m");
+    return text(generator.torque, " N m + ", generator.slope, " N m s/rad (speed - ", generator.start, " rad/s)");
+}
+
+}  // namespace
+
+Turbine with_generator(const Turbine& turbine, const GeneratorLoad& generator) {
     if (!generator.acts()) return turbine;
     ForceSet forces = turbine.forces();
     const auto law = [generator](double, double, double rate) {
-        return CoordinateLaw{.force = -generator.ratio * generator.at(rate),
-                             .by_rate = -generator.ratio * generator.ratio * generator.slope};
+        const TorqueLaw::At at = generator.at(rate);
+        return CoordinateLaw{.force = -generator.ratio * at.torque,
+                             .by_rate = -generator.ratio * generator.ratio * at.by_speed};
     };
     forces.add_user(coordinate_force("generator", generator.shaft, law, false));
-    return turbine.with_forces(forces, text("generator: ", generator.torque, " N m + ", generator.slope,
-                                            " N m s/rad (speed - ", generator.start, " rad/s), on its own shaft"));
+    return turbine.with_forces(forces, text("generator: ", in_words(generator), ", on its own shaft"));
 }
 
-ChannelGroup generator_channels(const ConstantGenerator& generator) {
+ChannelGroup generator_channels(const GeneratorLoad& generator) {
     ChannelGroup group;
     group.channels = {{.name = "generator torque",
                        .units = "N m",
@@ -34,7 +45,7 @@ ChannelGroup generator_channels(const ConstantGenerator& generator) {
                        .frame = "axis of the generator shaft"}};
     group.sample = [generator](const ChannelInput& in, double* values) {
         const double rate = in.qd(in.kinematics.model().index(generator.shaft));
-        values[0] = generator.at(rate);
+        values[0] = generator.at(rate).torque;
         values[1] = values[0] * generator.ratio * rate;
     };
     return group;

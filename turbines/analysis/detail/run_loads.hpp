@@ -2,6 +2,7 @@
 /// Generator and rotor torque of a run in time. Internal to the room.
 #pragma once
 
+#include "elements/control/torque_law.hpp"
 #include "mbs/system/channel.hpp"
 #include "turbines/analysis/settings.hpp"
 #include "turbines/model/assembly.hpp"
@@ -10,18 +11,21 @@
 
 namespace cardan::turbines {
 
-/// T = torque + slope (speed - start), of the generator on its own shaft.
-struct ConstantGenerator {
+/// Of a run without controller: T = torque + slope (speed - start), or a law, of the generator on its own shaft.
+struct GeneratorLoad {
     double torque = 0, slope = 0, start = 0, ratio = 1;  ///< N m, N m s/rad, rad/s, -
     BodyId shaft;
+    TorqueLaw law = {};  ///< if it acts, in the place of torque and slope
 
     /// @param rate  of its coordinate
-    double at(double rate) const { return torque + slope * (ratio * rate - start); }
-    bool acts() const { return torque != 0 || slope != 0; }
+    TorqueLaw::At at(double rate) const {
+        return law.acts() ? law.at(ratio * rate) : TorqueLaw::At{torque + slope * (ratio * rate - start), slope};
+    }
+    bool acts() const { return torque != 0 || slope != 0 || law.acts(); }
 };
-Turbine with_generator(const Turbine& turbine, const ConstantGenerator& generator);
+Turbine with_generator(const Turbine& turbine, const GeneratorLoad& generator);
 /// "generator torque" (GenTq) and "generator power", mechanical.
-ChannelGroup generator_channels(const ConstantGenerator& generator);
+ChannelGroup generator_channels(const GeneratorLoad& generator);
 
 /// A follower load at the hub, about its z axis.
 /// @throws InputError naming the row

@@ -63,10 +63,15 @@ double torque_of(const MachineAir& air, const Turbine& at_start, double speed, c
     return sum / azimuths;
 }
 
-SimulationModel uncontrolled(const SimulationSettings& o, const Pair& machine, double rotor_torque) {
+SimulationModel uncontrolled(const SimulationSettings& o, const Pair& machine, double rotor_torque,
+                             const TorqueLaw& law) {
     const double ratio = machine.turbine.layout().gear_ratio;
-    const ConstantGenerator generator{o.generator_torque.value_or(rotor_torque / ratio), o.generator_slope,
-                                      ratio * *o.rotor_speed, ratio, *machine.turbine.layout().generator};
+    const GeneratorLoad generator{o.generator_torque.value_or(rotor_torque / ratio),
+                                  o.generator_slope,
+                                  ratio * *o.rotor_speed,
+                                  ratio,
+                                  *machine.turbine.layout().generator,
+                                  law};
     SimulationModel model{with_generator(machine.turbine, generator), with_generator(machine.at_start, generator)};
     if (generator.acts()) model.channels.push_back(generator_channels(generator));
     return model;
@@ -132,11 +137,12 @@ SimulationModel simulation_model(const Machine& machine, const SimulationSetting
     report_remark(report, {Remark::Kind::taken, in_words(mesh)});
     const std::optional<MachineAir> air = air_on(ready.turbine, machine, o, report);
     const Pair pair = in_the_air(ready.turbine, air);
-    const double driving = driving_torque(machine, o, air, pair.at_start, report);
+    const TorqueLaw law = torque_law_of(machine, o);
+    const double driving = law.acts() ? 0 : driving_torque(machine, o, air, pair.at_start, report);
     std::vector<ChannelGroup> wind;
     if (air) wind.push_back(air->channels());
     SimulationModel model =
-        o.controller.acts() ? controlled(o, pair, driving, wind, report) : uncontrolled(o, pair, driving);
+        o.controller.acts() ? controlled(o, pair, driving, wind, report) : uncontrolled(o, pair, driving, law);
     model.channels.insert(model.channels.end(), wind.begin(), wind.end());
     add_rotor_torque(o.rotor_torque, model);
     if (air) model.wind = to_yaml(air->wind());

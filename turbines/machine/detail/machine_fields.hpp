@@ -197,6 +197,12 @@ void machine_fields(Archive& archive, AnyMachine& m, Air& air) {
             archive.number("no_load_speed", m.controller.generator.no_load_speed);
             archive.number("slope", m.controller.generator.slope);
         });
+        archive.group_if(m.controller.torque_law.acts(), "torque_law", [&] {
+            archive.number("rated_speed", m.controller.torque_law.rated_speed);
+            archive.number("rated_torque", m.controller.torque_law.rated_torque);
+            archive.number("optimal_gain", m.controller.torque_law.optimal_gain);
+            archive.number("slip", m.controller.torque_law.slip);
+        });
     });
     archive.optional_group("run", m.run, [&](auto& run) { run_fields(archive, run); });
     archive.optional_group("air", air, [&](auto& fields) { air_fields(archive, fields); });
