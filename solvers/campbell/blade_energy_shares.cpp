@@ -2,6 +2,7 @@
 #include "mbs/base/entry.hpp"
 #include "solvers/campbell/detail/blade_likeness.hpp"
 #include "solvers/campbell/detail/component_modes.hpp"
+#include "solvers/campbell/detail/component_order.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>
@@ -42,17 +43,25 @@ void EnergyShares::add_blades(const Linearisation& lin, const Model& model, cons
     blade_blocks_.push_back(std::move(block));
 }
 
-// Component modes of one blade, under the names that others may have already.
+// Component modes of one blade, under the names that others may have already. Where as many modes have other names (one
+// that is as much edge as torsion in the first blade and a little more of the one in the next, because it is bent
+// otherwise), they follow each other in frequency as those of the first do.
 void EnergyShares::add_modes(const BladePart& part, const Linearisation& lin, const std::vector<int>& own,
                              const std::vector<std::string>& families, BladeBlock& block) {
     Matrix& weights = block.weights.emplace_back(Matrix::Zero(std::ssize(own), 0));
     if (own.empty()) return;
     const Matrix K = lin.elastic(own, own);
     const ComponentModes modes = component_modes(K, lin.mass(own, own), part.axes.part);
+    const std::vector<Component> first(components_.begin() + block.first_component, components_.end());
+    std::vector<Component> named;
     std::map<std::string, int> count;
     for (Eigen::Index i = 0; i < modes.shapes.cols(); ++i) {
         const std::string family = family_of(modes.shapes.col(i), K, families);
-        const int c = component_of(block, family, ++count[family], part, modes.omega(i) / (2 * pi));
+        named.push_back({part.axes.part, family, ++count[family], modes.omega(i) / (2 * pi), true, false});
+    }
+    const bool by_rank = first.size() == named.size() && !have_same_names(first, named);
+    for (Eigen::Index i = 0; i < std::ssize(named); ++i) {
+        const int c = by_rank ? static_cast<int>(i) : component_of(block, entry(named, i));
         const Eigen::Index known = weights.cols(), wanted = std::max<Eigen::Index>(known, c + 1);
         weights.conservativeResize(Eigen::NoChange, wanted);
         weights.rightCols(wanted - known).setZero();
@@ -61,13 +70,13 @@ void EnergyShares::add_modes(const BladePart& part, const Linearisation& lin, co
 }
 
 // Its column in the block.
-int EnergyShares::component_of(const BladeBlock& block, const std::string& family, int ordinal, const BladePart& part,
-                               double clamped_hz) {
+int EnergyShares::component_of(const BladeBlock& block, const Component& named) {
     const auto first = components_.begin() + block.first_component;
-    const auto found = std::find_if(first, components_.end(),
-                                    [&](const Component& c) { return c.family == family && c.ordinal == ordinal; });
+    const auto found = std::find_if(first, components_.end(), [&](const Component& c) {
+        return c.family == named.family && c.ordinal == named.ordinal;
+    });
     const int column = static_cast<int>(found - first);
-    if (found == components_.end()) components_.push_back({part.axes.part, family, ordinal, clamped_hz, true, false});
+    if (found == components_.end()) components_.push_back(named);
     return column;
 }
 

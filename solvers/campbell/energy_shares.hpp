@@ -126,8 +126,7 @@ private:
     void add_blades(const Linearisation& lin, const Model& model, const RotorMap& rotor, const BladePart& part);
     void add_modes(const BladePart& part, const Linearisation& lin, const std::vector<int>& own,
                    const std::vector<std::string>& families, BladeBlock& block);
-    int component_of(const BladeBlock& block, const std::string& family, int ordinal, const BladePart& part,
-                     double clamped_hz);
+    int component_of(const BladeBlock& block, const Component& named);
     using Patterns = std::array<Complex, ColemanTransform::max_blades>;
     static Complex blade_amplitude(const BladeBlock& block, Eigen::Index component, Eigen::Index blade, const Matrix& T,
                                    const ComplexVector& shape);

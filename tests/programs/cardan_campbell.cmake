@@ -100,3 +100,6 @@ set_tests_properties(example_like_base PROPERTIES FIXTURES_SETUP like_base)
 set_tests_properties(example_like example_like_speed PROPERTIES FIXTURES_REQUIRED like_base)
 set_tests_properties(example_like PROPERTIES FIXTURES_SETUP like_first)
 set_tests_properties(example_like_again PROPERTIES FIXTURES_REQUIRED "like_base;like_first")
+# One element per blade: its fourth mode is as much edge as torsion, and one or the other by the wind and from blade to blade.
+add_example_test(example_few_elements cardan 0 "mode +8 +10 +12 .*1st tower fore-aft[^\n]*\n1st blade flap .backward.[^\n]*[0-9]" campbell nrel5mw
+                 --wind 8,10,12 --blade-elements 1 --tower-elements 1 --max-frequency 3 --out example_few_elements)

@@ -44,12 +44,14 @@ std::optional<Order> by_frequency(const std::vector<Component>& wanted, const st
 
 }  // namespace
 
-std::optional<Order> component_order(const std::vector<Component>& wanted, const std::vector<Component>& there,
-                                     bool same_beams) {
+bool have_same_names(const std::vector<Component>& wanted, const std::vector<Component>& there) {
+    return by_name(wanted, there).has_value();
+}
+
+std::optional<Order> component_order(const std::vector<Component>& wanted, const std::vector<Component>& there) {
     if (wanted.size() != there.size()) return std::nullopt;
-    std::optional<Order> order = by_name(wanted, there);
-    if (!order && same_beams) order = by_frequency(wanted, there);
-    return order;
+    const std::optional<Order> order = by_name(wanted, there);
+    return order ? order : by_frequency(wanted, there);
 }
 
 }  // namespace cardan::solvers

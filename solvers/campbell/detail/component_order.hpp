@@ -1,5 +1,5 @@
 /// @file
-/// Component modes of one machine among those of another. Internal: not for users of the library.
+/// Component modes of one machine or blade among those of another. Internal: not for users of the library.
 #pragma once
 
 #include "solvers/campbell/energy_shares.hpp"
@@ -9,12 +9,13 @@
 
 namespace cardan::solvers {
 
-/// Place of every component that is wanted among those that are there, by part, family and ordinal.
-/// @param same_beams  the machines differ in how their blades are set only: pitch turns what is flap and edge of a
-/// clamped
-///                    blade, but not its modes, and where names differ those of a part follow each other in frequency
-/// @return none: the components are not the same
+/// Is each of the one, by part, family and ordinal, among the other?
+bool have_same_names(const std::vector<Component>& wanted, const std::vector<Component>& there);
+
+/// Place of every component that is wanted among those that are there, by name; where names differ (pitch turns what is
+/// flap and edge of a clamped blade, but not its modes), those of a part follow each other in frequency.
+/// @return none: a part has not as many there
 std::optional<std::vector<std::size_t>> component_order(const std::vector<Component>& wanted,
-                                                        const std::vector<Component>& there, bool same_beams);
+                                                        const std::vector<Component>& there);
 
 }  // namespace cardan::solvers

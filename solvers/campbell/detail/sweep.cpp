@@ -246,10 +246,10 @@ void Sweep::align(const EnergyShares& own, CampbellPoint& point) {
     if (!first_) first_ = &own;
     if (first_ == &own) return;
     const std::vector<Component>&wanted = first_->components(), &there = own.components();
-    const std::optional<std::vector<std::size_t>> found = component_order(wanted, there, diagram_.parameter.empty());
+    const std::optional<std::vector<std::size_t>> found = component_order(wanted, there);
     if (!found)
         throw InputError(diagram_.machine, text("component modes at point ", diagram_.points.size() + 1), there.size(),
-                         text(wanted.size(), " with the same names as at the first point"));
+                         text(wanted.size(), ", of every part as many as at the first point"));
     for (CampbellMode& m : point.modes) {
         std::vector<Share> shares;
         for (std::size_t i = 0; i < found->size(); ++i) {

@@ -306,7 +306,7 @@ TEST_CASE("campbell over a parameter: what cannot be computed is refused", "[pro
     cases = good;
     cases[1] = free_lag.cases()[0];
     cases[1].parameter = 2500;
-    refused(cases, {"small rotor", "component modes at point 2 = 1", "2 with the same names"});
+    refused(cases, {"small rotor", "component modes at point 2 = 1", "2, of every part as many"});
     // All are looked at before the first is computed.
     int computed = 0;
     cases = good;
