@@ -17,6 +17,14 @@ symbols() { # <build folder> <archives>
         sed -E 's/([CD])[0-5]([EI])/\12\2/g' | sort -u
 }
 
+# Functions that are there once for each processor ("f.avx2", "f.resolver"): each compiler names these copies in its way,
+# and clang has no "f" itself. So nothing but the source that defines them may call them.
+clones() { sed -nE 's/^[a-z]+ (.*)\.resolver$/\1/p' "$1"; }
+calls_from_elsewhere() { # <build folder> <archives> <clones>
+    (cd "$1" && xargs nm --undefined-only <"$2" 2>/dev/null) | awk 'NF == 2 { print $2 }' | sed -E 's/\.(ifunc|resolver)$//' |
+        sort -u | comm -12 - "$3"
+}
+
 archives "$1" >"$work/first"
 archives "$2" >"$work/second"
 comm -12 "$work/first" "$work/second" >"$work/both"
@@ -26,6 +34,19 @@ if [[ ! -s "$work/both" ]]; then
 fi
 symbols "$1" "$work/both" >"$work/first"
 symbols "$2" "$work/both" >"$work/second"
+cat <(clones "$work/first") <(clones "$work/second") | sort -u >"$work/clones"
+for folder in "$1" "$2"; do
+    if ! calls_from_elsewhere "$folder" "$work/both" "$work/clones" >"$work/called" || [[ -s "$work/called" ]]; then
+        echo "symbols of two compilers: functions with a copy for each processor are called from another source in $folder:" >&2
+        c++filt <"$work/called" >&2
+        exit 1
+    fi
+done
+# Without them and their copies.
+for one in first second; do
+    awk 'NR == FNR { clone[$1]; next } { name = $2; sub(/\..*/, "", name) } !(name in clone)' "$work/clones" "$work/$one" >"$work/$one.plain"
+    mv "$work/$one.plain" "$work/$one"
+done
 for one in first second; do cut -d' ' -f2 "$work/$one" | sort -u >"$work/$one.names"; done
 
 # What each has and the other has not: "<strong or weak> <symbol>".
