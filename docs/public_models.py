@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What cardan makes of every model below some folders: OpenFAST's main files (.fst) and windIO's (.yaml).
 
-    docs/public_models.py MODELS... [--cardan PATH] [--limit SECONDS] [--jobs N] [--out TABLE.csv]
+    docs/public_models.py MODELS... [--cardan PATH] [--commands NAME ...] [--limit SECONDS] [--jobs N] [--out TABLE.csv]
 
 For every model it runs, as a user would type it,
 
@@ -61,11 +61,11 @@ def said(model, command, options, folder):
 def row_of(model, options):
     row = {"model": model}
     with tempfile.TemporaryDirectory() as folder:
-        for command in COMMANDS:
+        for command in options.commands:
             row[command] = said(os.path.abspath(model), command, options, folder)
             if command == "info" and row[command] != "ok":
                 break
-    print(" | ".join([model, *(row.get(command, "-") for command in COMMANDS)]), file=sys.stderr, flush=True)
+    print(" | ".join([model, *(row.get(command, "-") for command in options.commands)]), file=sys.stderr, flush=True)
     return row
 
 
@@ -73,6 +73,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", nargs="+", help="folders")
     parser.add_argument("--cardan", default="cardan", help="the command")
+    parser.add_argument("--commands", nargs="+", choices=COMMANDS, default=list(COMMANDS), help="some of the four")
     parser.add_argument("--limit", type=float, default=120, help="of a command, s")
     parser.add_argument("--jobs", type=int, default=1, help="models at a time")
     parser.add_argument("--out", default="public_models.csv", help="the table")
@@ -82,10 +83,10 @@ def main():
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         rows = list(pool.map(lambda model: row_of(model, options), found))
     with open(options.out, "w", newline="") as file:
-        table = csv.DictWriter(file, ["model", *COMMANDS])
+        table = csv.DictWriter(file, ["model", *options.commands])
         table.writeheader()
         table.writerows(rows)
-    for command in COMMANDS:
+    for command in options.commands:
         print(f"{command:10} {sum(row.get(command) == 'ok' for row in rows)} of {len(rows)}")
 
 
