@@ -155,8 +155,8 @@ struct Fall {
 // The loosest accuracy, in powers of the root of ten, that comes as near as wanted.
 template <class Error>
 double loosest(const Error& error) {
-    for (double accuracy = 1e-2; accuracy > 1e-13; accuracy /= std::sqrt(10.0))
-        if (error(accuracy) < Fall::wanted) return accuracy;
+    for (int steps = 0; steps < 22; ++steps)
+        if (const double accuracy = std::pow(10, -2 - steps / 2.0); error(accuracy) < Fall::wanted) return accuracy;
     return 0;
 }
 

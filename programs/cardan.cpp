@@ -3,8 +3,8 @@
 // A machine is a model of OpenFAST or windIO, our own YAML, a result, or a built-in one; all commands take it in the
 // same way. What each of them does stands at the head of its file, programs/cardan/COMMAND.cpp.
 #include "mbs/base/version.hpp"
-
 #include "programs/cardan/commands.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>

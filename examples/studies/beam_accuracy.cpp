@@ -6,11 +6,11 @@
 // order of each, error ~ C / N^order.
 // Reference: closed forms and digits of docs/verification.md; where there are none, Hermite elements with all breaks as
 // nodes, extrapolated, in extended precision (docs/beam_accuracy.md). A list of orders and errors is checked.
+#include "examples/studies/beam_accuracy/figure.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
-
-#include "examples/studies/beam_accuracy/figure.hpp"
 #include "programs/shared/program.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

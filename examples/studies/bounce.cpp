@@ -5,10 +5,9 @@
 // Picture: bounce.svg.
 #include "elements/machine/contact.hpp"
 #include "elements/machine/joints.hpp"
+#include "examples/studies/study.hpp"
 #include "solvers/pictures/stack.hpp"
 #include "solvers/time/integrate.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

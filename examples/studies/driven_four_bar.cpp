@@ -4,12 +4,11 @@
 // give the forces. The plane is that of complex numbers there.
 // Picture: driven_four_bar.svg.
 #include "elements/machine/joints.hpp"
+#include "examples/studies/study.hpp"
 #include "mbs/loops/closure.hpp"
 #include "mbs/model/solids.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

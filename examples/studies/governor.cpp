@@ -5,14 +5,13 @@
 // Picture: governor.svg.
 #include "elements/machine/joints.hpp"
 #include "elements/machine/point_spring.hpp"
+#include "examples/studies/study.hpp"
 #include "mbs/model/solids.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/loop_reduction.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

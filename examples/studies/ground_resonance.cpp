@@ -4,12 +4,11 @@
 // equations in multiblade coordinates (Coleman and Feingold 1958) and Floquet's theory of equations written by hand;
 // data of Hammond (1974), J. AHS 19 (4), the hub's mass without blades. Picture: ground_resonance.svg.
 #include "elements/machine/joints.hpp"
+#include "examples/studies/study.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/periodic/floquet.hpp"
 #include "solvers/periodic/steady_state.hpp"
 #include "solvers/pictures/stack.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

@@ -5,11 +5,10 @@
 // Picture: jeffcott_rotor.svg.
 #include "elements/machine/bushing.hpp"
 #include "elements/machine/joints.hpp"
+#include "examples/studies/study.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/pictures/stack.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

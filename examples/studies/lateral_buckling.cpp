@@ -4,12 +4,11 @@
 // a finite EI_y, the sideways perturbation of the bent rod by an independent program. Picture: lateral_buckling.svg:
 // beams with EI_y = 10 EI_z under weights that pull a little sideways.
 #include "elements/cardan_beam/single_beam.hpp"
+#include "examples/studies/study.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/equilibrium/buckling.hpp"
 #include "solvers/equilibrium/load_path.hpp"
 #include "solvers/pictures/stack.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

@@ -4,10 +4,10 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "solvers/time/motion.hpp"
-
 #include "programs/shared/command_line.hpp"
 #include "programs/shared/named_values.hpp"
+#include "solvers/time/motion.hpp"
+
 #include <array>
 #include <cmath>
 #include <map>

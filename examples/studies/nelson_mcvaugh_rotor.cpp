@@ -3,13 +3,12 @@
 // rigid in shear and with rotary inertia, or (--shear) Timoshenko's. References: exact transfer matrices (equal
 // bearings) and 72 finite elements of Rayleigh's beam (unequal ones) of an independent program; the critical speeds
 // that the paper found with 18 elements. Picture: nelson_mcvaugh_rotor.svg.
+#include "examples/studies/nelson_mcvaugh_rotor/rotor.hpp"
+#include "examples/studies/study.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/pictures/stack.hpp"
-
-#include "examples/studies/nelson_mcvaugh_rotor/rotor.hpp"
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

@@ -7,14 +7,14 @@
 // derivatives of the frame's velocities, which the paper's Annex A does not have. References: the tables of the paper;
 // converged frequencies and response of the same blade by other methods (docs/nrel5mw_blade.md,
 // docs/nrel5mw_platform.md).
-#include "mbs/base/units.hpp"
-#include "solvers/pictures/stack.hpp"
-#include "turbines/machines/nrel5mw_platform.hpp"
-
 #include "examples/studies/nrel5mw_assumed_modes/functions.hpp"
 #include "examples/studies/nrel5mw_assumed_modes/platform_case.hpp"
 #include "examples/studies/nrel5mw_assumed_modes/shapes.hpp"
+#include "mbs/base/units.hpp"
 #include "programs/shared/program.hpp"
+#include "solvers/pictures/stack.hpp"
+#include "turbines/machines/nrel5mw_platform.hpp"
+
 #include <cmath>
 #include <iomanip>
 #include <iostream>

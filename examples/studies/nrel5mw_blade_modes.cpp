@@ -11,12 +11,12 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/base/version.hpp"
+#include "programs/shared/program.hpp"
+#include "programs/shared/words.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "solvers/pictures/blade_shapes.hpp"
 #include "turbines/machines/nrel5mw_blade.hpp"
 
-#include "programs/shared/program.hpp"
-#include "programs/shared/words.hpp"
 #include <array>
 #include <filesystem>
 #include <iomanip>

@@ -8,13 +8,13 @@
 // Reference: OpenFAST 5.0.0 at these speeds, with ElastoDyn's and with BeamDyn's blades, its yaw bearing locked
 // (docs/nrel5mw.md): the same machine is --yaw locked with --variant fast or beamdyn. Found: the differences are those
 // of ElastoDyn's shapes and sums, and of BeamDyn's one element of order 5.
+#include "examples/studies/nrel5mw_campbell/comparison.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/campbell_program.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/model/scaling.hpp"
 
-#include "examples/studies/nrel5mw_campbell/comparison.hpp"
-#include "programs/shared/campbell_program.hpp"
 #include <array>
 #include <filesystem>
 #include <iostream>

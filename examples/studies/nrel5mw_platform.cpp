@@ -8,12 +8,12 @@
 // Reference: converged response of the same blade by a method that shares nothing with the joint chain, without
 // platform motion and with a pitch of 5 degrees at half the rotor's frequency (docs/nrel5mw_platform.md).
 // Goal: 0.5 % and 1 degree on every harmonic above 0.01 m with 16 elements.
-#include "mbs/base/units.hpp"
-
 #include "examples/studies/motion_option.hpp"
 #include "examples/studies/nrel5mw_platform/files.hpp"
 #include "examples/studies/nrel5mw_platform/reference.hpp"
+#include "mbs/base/units.hpp"
 #include "programs/shared/simulation.hpp"
+
 #include <array>
 #include <iomanip>
 #include <optional>

@@ -6,12 +6,11 @@
 // and critical speeds those with w = Omega or w = -Omega.                                     [Den Hartog 1956]
 // Picture: overhung_disc.svg.
 #include "elements/machine/joints.hpp"
+#include "examples/studies/study.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/pictures/stack.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

@@ -4,12 +4,11 @@
 // springs. Picture: pitch_linkage.svg, over the angle of the blade.
 #include "elements/machine/joints.hpp"
 #include "elements/machine/point_spring.hpp"
+#include "examples/studies/study.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/load_curve.hpp"
 #include "solvers/linear/linearise.hpp"
 #include "solvers/pictures/stack.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

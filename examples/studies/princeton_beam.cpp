@@ -4,12 +4,11 @@
 // points of the experiment are not at hand.)
 // Picture: princeton_beam.svg.
 #include "elements/cardan_beam/single_beam.hpp"
+#include "examples/studies/study.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/pictures/stack.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

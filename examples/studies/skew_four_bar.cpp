@@ -3,11 +3,10 @@
 // crank turns slowly; out-of-plane displacement of the hinge, force and moment in it. Reference for a small skew: a
 // frame of exact beam elements with hinges, linear in the misfit, an independent program. Picture: skew_four_bar.svg.
 #include "elements/cardan_beam/cardan_beam.hpp"
+#include "examples/studies/study.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/pictures/stack.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

@@ -4,11 +4,10 @@
 // Picture: squeezer.svg.
 #include "elements/machine/joints.hpp"
 #include "elements/machine/point_spring.hpp"
+#include "examples/studies/study.hpp"
 #include "mbs/loops/closure.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

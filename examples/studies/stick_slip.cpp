@@ -6,10 +6,9 @@
 
 #include "elements/machine/contact.hpp"
 #include "elements/machine/joints.hpp"
+#include "examples/studies/study.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

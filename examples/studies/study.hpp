@@ -3,6 +3,7 @@
 #pragma once
 
 #include "programs/shared/program.hpp"
+
 #include <cstdio>
 
 namespace cardan::program {

@@ -6,6 +6,7 @@
 // that prevail (tower modes in the fixed frame, blade modes in the rotating frame), damping and stability. Reference:
 // frequencies at 6.02 rad/s (57.5 rev/min) in docs/verification.md.
 #include "examples/studies/teetered_program.hpp"
+
 #include <iostream>
 #include <optional>
 

@@ -7,10 +7,10 @@
 // method, for a tower of 100 times the blades' rigidity and for a rigid one. Goal with six elements per blade and
 // tower: 0.3 % for every first mode, 1 % for every second one. The paper's Tables II and III stand beside them; they do
 // not follow from its Table I (docs/teetered.md).
-#include "mbs/base/error.hpp"
-
 #include "examples/studies/teetered_floquet/pictures.hpp"
 #include "examples/studies/teetered_program.hpp"
+#include "mbs/base/error.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstring>

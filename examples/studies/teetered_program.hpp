@@ -3,9 +3,9 @@
 #pragma once
 
 #include "mbs/base/units.hpp"
+#include "programs/shared/campbell_program.hpp"
 #include "turbines/machines/teetered.hpp"
 
-#include "programs/shared/campbell_program.hpp"
 #include <optional>
 
 namespace cardan::program {

@@ -5,10 +5,9 @@
 //     1919]
 // Picture: unbalanced_rotor.svg.
 #include "elements/machine/joints.hpp"
+#include "examples/studies/study.hpp"
 #include "solvers/periodic/steady_state.hpp"
 #include "solvers/pictures/stack.hpp"
-
-#include "examples/studies/study.hpp"
 
 using namespace cardan;
 

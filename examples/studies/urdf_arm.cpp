@@ -6,13 +6,13 @@
 // References: (1) with a tube made a million times stiffer the rigid arm comes back; (2) with the drives locked at
 // q = 0 the forearm is a clamped tube with a rigid body (wrist and tool) at its tip, of which the Timoshenko beam has
 // an exact transfer matrix; (3) the arm with the beam, written as URDF and read again, has the same metric.
+#include "examples/studies/urdf_arm/tube.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/kernels/metric.hpp"
-#include "solvers/linear/modes.hpp"
-
-#include "examples/studies/urdf_arm/tube.hpp"
 #include "programs/shared/named_values.hpp"
 #include "programs/shared/program.hpp"
+#include "solvers/linear/modes.hpp"
+
 #include <iomanip>
 #include <iostream>
 

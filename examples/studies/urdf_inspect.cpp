@@ -10,10 +10,10 @@
 #include "mbs/kernels/metric.hpp"
 #include "mbs/model/summary.hpp"
 #include "mbs/urdf/urdf.hpp"
-#include "solvers/linear/modes.hpp"
-
 #include "programs/shared/named_values.hpp"
 #include "programs/shared/program.hpp"
+#include "solvers/linear/modes.hpp"
+
 #include <algorithm>
 #include <iomanip>
 #include <iostream>

@@ -6,11 +6,11 @@
 // Reference: the values with 3 elements per blade and tower in docs/wt600.md, those of --paper.
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/campbell_program.hpp"
 #include "solvers/campbell/difference.hpp"
 #include "turbines/machines/wt600_operation.hpp"
 #include "turbines/model/generator_slip.hpp"
 
-#include "programs/shared/campbell_program.hpp"
 #include <array>
 #include <filesystem>
 #include <iostream>

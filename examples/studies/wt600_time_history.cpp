@@ -7,13 +7,13 @@
 // aerodynamics, see elements/machine/rotor_load.hpp). The tower may stand on a platform that moves as prescribed.
 // Checks: the energy balance, by the integration and by the recorded powers; at the end the speed at which the
 // torques of rotor and generator are equal, found by bisection.
-#include "mbs/base/entry.hpp"
-#include "mbs/base/units.hpp"
-#include "solvers/campbell/diagram.hpp"
-
 #include "examples/studies/motion_option.hpp"
 #include "examples/studies/wt600_simulation.hpp"
+#include "mbs/base/entry.hpp"
+#include "mbs/base/units.hpp"
 #include "programs/shared/simulation_run.hpp"
+#include "solvers/campbell/diagram.hpp"
+
 #include <array>
 
 using namespace cardan;

@@ -2,9 +2,9 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/words.hpp"
 #include "turbines/machine/read_machine.hpp"
 
-#include "programs/shared/words.hpp"
 #include <filesystem>
 
 namespace cardan::program {

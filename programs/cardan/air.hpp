@@ -2,11 +2,11 @@
 /// Air on a machine, as programs are told of it: profiles, options, wind.
 #pragma once
 
+#include "programs/shared/command_line.hpp"
+#include "programs/shared/machine_file.hpp"
 #include "turbines/analysis/machine_wind.hpp"
 #include "turbines/machine/machine.hpp"
 
-#include "programs/shared/command_line.hpp"
-#include "programs/shared/machine_file.hpp"
 #include <optional>
 #include <string>
 #include <vector>

@@ -12,13 +12,13 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/analysis/in_unit.hpp"
-
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
 #include "programs/cardan/wind_options.hpp"
 #include "programs/shared/campbell_program.hpp"
 #include "programs/shared/words.hpp"
+#include "turbines/analysis/in_unit.hpp"
+
 #include <iostream>
 #include <optional>
 

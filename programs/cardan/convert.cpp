@@ -3,13 +3,13 @@
 // Reference: docs/file_formats.md. A result holds the machine that was computed, which is a machine like any other.
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
+#include "programs/cardan/commands.hpp"
+#include "programs/shared/machine_file.hpp"
+#include "programs/shared/program.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "turbines/machine/machine_text.hpp"
 
-#include "programs/cardan/commands.hpp"
-#include "programs/shared/machine_file.hpp"
-#include "programs/shared/program.hpp"
 #include <iomanip>
 #include <iostream>
 #include <system_error>

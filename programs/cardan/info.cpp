@@ -6,14 +6,14 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/model/summary.hpp"
-#include "solvers/hdf5/file.hpp"
-#include "solvers/hdf5/history.hpp"
-#include "turbines/machine/result.hpp"
-
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
 #include "programs/shared/history_state.hpp"
 #include "programs/shared/program.hpp"
+#include "solvers/hdf5/file.hpp"
+#include "solvers/hdf5/history.hpp"
+#include "turbines/machine/result.hpp"
+
 #include <cmath>
 #include <cstdio>
 #include <iomanip>

@@ -10,16 +10,16 @@
 // of the Campbell diagram at this rotor speed.
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "solvers/periodic/floquet.hpp"
-#include "turbines/analysis/in_unit.hpp"
-#include "turbines/analysis/linear_model.hpp"
-
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/linear_model_output.hpp"
 #include "programs/cardan/operation.hpp"
 #include "programs/cardan/wind_options.hpp"
 #include "programs/shared/channel_choice.hpp"
 #include "programs/shared/program.hpp"
+#include "solvers/periodic/floquet.hpp"
+#include "turbines/analysis/in_unit.hpp"
+#include "turbines/analysis/linear_model.hpp"
+
 #include <cmath>
 #include <cstdio>
 #include <iostream>

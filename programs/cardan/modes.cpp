@@ -4,12 +4,12 @@
 // to turn included. Of a machine whose source lacks masses those of blade and tower by themselves.
 #include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/analysis/campbell.hpp"
-#include "turbines/analysis/part_modes.hpp"
-
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
 #include "programs/shared/campbell_program.hpp"
+#include "turbines/analysis/campbell.hpp"
+#include "turbines/analysis/part_modes.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <optional>

@@ -2,9 +2,8 @@
 /// How a machine runs, as its source says or the options do: rotor speeds, pitch.
 #pragma once
 
-#include "solvers/campbell/diagram.hpp"
-
 #include "programs/shared/machine_file.hpp"
+#include "solvers/campbell/diagram.hpp"
 
 namespace cardan::program {
 

@@ -5,15 +5,15 @@
 // speed[rad s-1] ...
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/hdf5/campbell.hpp"
-#include "solvers/pictures/campbell.hpp"
-#include "turbines/machine/result.hpp"
-
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
 #include "programs/cardan/plot_histories.hpp"
 #include "programs/cardan/wind_curves.hpp"
 #include "programs/shared/program.hpp"
+#include "solvers/hdf5/campbell.hpp"
+#include "solvers/pictures/campbell.hpp"
+#include "turbines/machine/result.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -105,21 +105,21 @@ int draw_winds(const PlotArguments& a, const std::vector<std::string>& names) {
     return 0;
 }
 
-enum class Kind : std::uint8_t { history, diagram, winds };
+enum class ResultKind : std::uint8_t { history, diagram, winds };
 
-Kind kind_of(const std::string& file) {
-    if (!turbines::is_result(file) || turbines::is_history(file)) return Kind::history;
-    return is_wind_result(file) ? Kind::winds : Kind::diagram;
+ResultKind kind_of(const std::string& file) {
+    if (!turbines::is_result(file) || turbines::is_history(file)) return ResultKind::history;
+    return is_wind_result(file) ? ResultKind::winds : ResultKind::diagram;
 }
 
-const char* name_of(Kind kind) {
+const char* name_of(ResultKind kind) {
     constexpr std::array names{"a history", "a Campbell diagram", "operating points over the wind"};
     return entry(names, kind);
 }
 
 // Of what kind all files are.
-Kind common_kind(const std::vector<std::string>& files) {
-    const Kind kind = kind_of(files.front());
+ResultKind common_kind(const std::vector<std::string>& files) {
+    const ResultKind kind = kind_of(files.front());
     for (const std::string& file : files)
         if (kind_of(file) != kind)
             throw InputError(file, "kind", name_of(kind_of(file)), text(name_of(kind), ", as ", files.front()));
@@ -145,9 +145,9 @@ int run(PlotArguments& a, const CommandLine& /*command*/) {
     static_cast<void>(marks(a.marks));
     a.spectrum = a.spectrum || a.density;
     if (!a.list) check_outputs(a.out, {".svg"});
-    const Kind kind = common_kind(a.files);
-    if (kind == Kind::diagram) return draw_diagrams(a, names);
-    if (kind == Kind::winds) return draw_winds(a, names);
+    const ResultKind kind = common_kind(a.files);
+    if (kind == ResultKind::diagram) return draw_diagrams(a, names);
+    if (kind == ResultKind::winds) return draw_winds(a, names);
     return draw_histories(a, names);
 }
 

@@ -3,12 +3,12 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/channel_choice.hpp"
+#include "programs/shared/history_parts.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "solvers/signals/sampling.hpp"
 #include "turbines/tables/csv.hpp"
 
-#include "programs/shared/channel_choice.hpp"
-#include "programs/shared/history_parts.hpp"
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -1,11 +1,10 @@
 // A time history in order whose writer was killed, so that all programs can read it.
 //
 // Reference: docs/file_formats.md, section "Time history".
-#include "solvers/hdf5/history.hpp"
-
 #include "programs/cardan/commands.hpp"
 #include "programs/shared/history_state.hpp"
 #include "programs/shared/program.hpp"
+#include "solvers/hdf5/history.hpp"
 
 namespace cardan::program {
 

@@ -1,14 +1,14 @@
 // A result once more, from what its file holds: the machine, the command and its options.
 #include "mbs/base/error.hpp"
 #include "mbs/base/version.hpp"
-#include "solvers/hdf5/history.hpp"
-#include "turbines/machine/result.hpp"
-#include "turbines/machine/wind_text.hpp"
-
 #include "programs/cardan/commands.hpp"
 #include "programs/shared/machine_file.hpp"
 #include "programs/shared/program.hpp"
 #include "programs/shared/run_record.hpp"
+#include "solvers/hdf5/history.hpp"
+#include "turbines/machine/result.hpp"
+#include "turbines/machine/wind_text.hpp"
+
 #include <algorithm>
 #include <string_view>
 

@@ -2,10 +2,10 @@
 /// Channels of a machine over a revolution of its steady state, as `cardan steady` shows them.
 #pragma once
 
+#include "programs/shared/channel_choice.hpp"
 #include "solvers/linear/channel_values.hpp"
 #include "solvers/signals/history.hpp"
 
-#include "programs/shared/channel_choice.hpp"
 #include <algorithm>
 #include <numeric>
 #include <span>

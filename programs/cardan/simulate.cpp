@@ -9,6 +9,7 @@
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/operation.hpp"
 #include "programs/cardan/simulate_options.hpp"
+
 #include <algorithm>
 #include <cmath>
 

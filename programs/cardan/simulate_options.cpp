@@ -2,10 +2,10 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/analysis/in_unit.hpp"
-
 #include "programs/cardan/operation.hpp"
 #include "programs/shared/named_values.hpp"
+#include "turbines/analysis/in_unit.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>

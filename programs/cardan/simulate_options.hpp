@@ -2,12 +2,12 @@
 /// Options of `cardan simulate`, and what they mean to the library.
 #pragma once
 
-#include "turbines/analysis/simulation.hpp"
-
 #include "programs/cardan/air.hpp"
 #include "programs/shared/channel_choice.hpp"
 #include "programs/shared/machine_file.hpp"
 #include "programs/shared/simulation_run.hpp"
+#include "turbines/analysis/simulation.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>

@@ -8,6 +8,12 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/cardan/commands.hpp"
+#include "programs/cardan/operation.hpp"
+#include "programs/cardan/revolution.hpp"
+#include "programs/cardan/steady_wind.hpp"
+#include "programs/shared/channel_choice.hpp"
+#include "programs/shared/program.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "solvers/pictures/history.hpp"
 #include "turbines/analysis/in_unit.hpp"
@@ -15,12 +21,6 @@
 #include "turbines/machine/machine_text.hpp"
 #include "turbines/model/channels.hpp"
 
-#include "programs/cardan/commands.hpp"
-#include "programs/cardan/operation.hpp"
-#include "programs/cardan/revolution.hpp"
-#include "programs/cardan/steady_wind.hpp"
-#include "programs/shared/channel_choice.hpp"
-#include "programs/shared/program.hpp"
 #include <array>
 #include <cmath>
 #include <cstdio>

@@ -6,12 +6,12 @@
 // Checked: what the neglected harmonics would have to balance is printed; what does not converge is named.
 #include "programs/cardan/steady_wind.hpp"
 
-#include "turbines/machine/machine_text.hpp"
-
 #include "programs/cardan/operation.hpp"
 #include "programs/cardan/wind_results.hpp"
 #include "programs/shared/program.hpp"
 #include "programs/shared/words.hpp"
+#include "turbines/machine/machine_text.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <utility>

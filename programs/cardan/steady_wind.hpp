@@ -4,6 +4,7 @@
 
 #include "programs/cardan/revolution.hpp"
 #include "programs/cardan/wind_options.hpp"
+
 #include <initializer_list>
 #include <string>
 #include <vector>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "programs/cardan/wind_results.hpp"
+
 #include <filesystem>
 #include <map>
 #include <span>

@@ -2,12 +2,11 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/analysis/rising.hpp"
-#include "turbines/machine/read_machine.hpp"
-
 #include "programs/shared/program.hpp"
 #include "programs/shared/remarks.hpp"
 #include "programs/shared/words.hpp"
+#include "turbines/analysis/rising.hpp"
+#include "turbines/machine/read_machine.hpp"
 
 namespace cardan::program {
 

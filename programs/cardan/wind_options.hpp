@@ -2,10 +2,10 @@
 /// What commands with --wind over a range of speeds ask about it, and what that means to the library.
 #pragma once
 
-#include "turbines/analysis/wind_run.hpp"
-
 #include "programs/cardan/air.hpp"
 #include "programs/shared/machine_file.hpp"
+#include "turbines/analysis/wind_run.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,8 +26,8 @@ struct WindArguments {
 Option add_wind_options(CommandLine& app, WindArguments& arguments);
 
 /// m/s, rising; empty: no wind.  @throws InputError naming the option
-std::vector<double> winds_of(const WindArguments& arguments);
-turbines::OperationSettings operation_of(const WindArguments& arguments);
+std::vector<double> winds_of(const WindArguments& wind);
+turbines::OperationSettings operation_of(const WindArguments& wind);
 
 /// What the air does to a vibration.
 struct VibrationArguments {

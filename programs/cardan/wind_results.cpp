@@ -3,13 +3,13 @@
 #include "mbs/base/pending_file.hpp"
 #include "mbs/base/text.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/cardan/wind_curves.hpp"
+#include "programs/shared/channel_choice.hpp"
+#include "programs/shared/command_line.hpp"
 #include "solvers/hdf5/axis.hpp"
 #include "solvers/pictures/stack.hpp"
 #include "turbines/model/channels.hpp"
 
-#include "programs/cardan/wind_curves.hpp"
-#include "programs/shared/channel_choice.hpp"
-#include "programs/shared/command_line.hpp"
 #include <algorithm>
 #include <array>
 #include <cstdio>

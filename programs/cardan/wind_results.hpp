@@ -3,9 +3,9 @@
 #pragma once
 
 #include "mbs/system/channel.hpp"
+#include "programs/cardan/revolution.hpp"
 #include "turbines/operation/wind_operation.hpp"
 
-#include "programs/cardan/revolution.hpp"
 #include <string>
 #include <vector>
 

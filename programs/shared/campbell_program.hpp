@@ -3,15 +3,15 @@
 #pragma once
 
 #include "mbs/base/units.hpp"
+#include "programs/shared/program.hpp"
+#include "programs/shared/remarks.hpp"
+#include "programs/shared/words.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/pictures/campbell.hpp"
 #include "solvers/pictures/roots.hpp"
 #include "turbines/analysis/rising.hpp"
 
-#include "programs/shared/program.hpp"
-#include "programs/shared/remarks.hpp"
-#include "programs/shared/words.hpp"
 #include <algorithm>
 #include <cctype>
 #include <cstdio>

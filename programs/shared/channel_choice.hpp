@@ -2,12 +2,12 @@
 /// Which channels a machine has beside the usual ones, and which of them tables and pictures show without being asked.
 #pragma once
 
-#include "solvers/pictures/history.hpp"
-#include "turbines/model/station_channels.hpp"
-
 #include "programs/shared/command_line.hpp"
 #include "programs/shared/machine_file.hpp"
 #include "programs/shared/words.hpp"
+#include "solvers/pictures/history.hpp"
+#include "turbines/model/station_channels.hpp"
+
 #include <algorithm>
 #include <string>
 #include <vector>

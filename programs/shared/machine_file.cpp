@@ -3,13 +3,13 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/program.hpp"
+#include "programs/shared/remarks.hpp"
+#include "programs/shared/run_record.hpp"
 #include "turbines/analysis/in_unit.hpp"
 #include "turbines/machine/built_in.hpp"
 #include "turbines/yaml/foundation.hpp"
 
-#include "programs/shared/program.hpp"
-#include "programs/shared/remarks.hpp"
-#include "programs/shared/run_record.hpp"
 #include <algorithm>
 #include <array>
 #include <iostream>
@@ -226,12 +226,12 @@ void add_machine_options(CommandLine& app, MachineOptions& options) {
     app.add_flag("--summary", options.summary, "print bodies, coordinates and masses first");
 }
 
-turbines::MachineSettings numbers_of(const MachineOptions& a) {
+turbines::MachineSettings numbers_of(const MachineOptions& options) {
     turbines::MachineSettings settings;
-    if (a.pitch) settings.pitch = *a.pitch * units::degree;
-    if (a.blade_elements > 0) settings.blade_elements = a.blade_elements;
-    if (a.tower_elements > 0) settings.tower_elements = a.tower_elements;
-    settings.damping = !a.undamped;
+    if (options.pitch) settings.pitch = *options.pitch * units::degree;
+    if (options.blade_elements > 0) settings.blade_elements = options.blade_elements;
+    if (options.tower_elements > 0) settings.tower_elements = options.tower_elements;
+    settings.damping = !options.undamped;
     return settings;
 }
 

@@ -2,10 +2,10 @@
 /// A machine as the argument of a program, with the options that change it, on its way to a solver.
 #pragma once
 
+#include "programs/shared/command_line.hpp"
 #include "turbines/analysis/prepared_machine.hpp"
 #include "turbines/machine/read_machine.hpp"
 
-#include "programs/shared/command_line.hpp"
 #include <optional>
 #include <string>
 #include <vector>

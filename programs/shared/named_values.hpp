@@ -3,8 +3,8 @@
 #pragma once
 
 #include "mbs/model/coordinates.hpp"
-
 #include "programs/shared/words.hpp"
+
 #include <map>
 #include <string>
 #include <vector>

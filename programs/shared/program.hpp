@@ -4,10 +4,10 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
-
 #include "programs/shared/command_line.hpp"
 #include "programs/shared/option_names.hpp"
 #include "programs/shared/progress.hpp"
+
 #include <atomic>
 #include <csignal>
 #include <exception>

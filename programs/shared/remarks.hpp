@@ -2,10 +2,10 @@
 /// What the library has to say, on the terminal.
 #pragma once
 
-#include "turbines/analysis/remark.hpp"
-
 #include "programs/shared/option_names.hpp"
 #include "programs/shared/program.hpp"
+#include "turbines/analysis/remark.hpp"
+
 #include <iostream>
 #include <string>
 

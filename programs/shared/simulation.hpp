@@ -5,12 +5,12 @@
 
 #include "mbs/base/types.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/history_parts.hpp"
+#include "programs/shared/program.hpp"
 #include "solvers/hdf5/history_recording.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"
 
-#include "programs/shared/history_parts.hpp"
-#include "programs/shared/program.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "mbs/base/error.hpp"
+#include "programs/shared/simulation.hpp"
 #include "turbines/analysis/resume.hpp"
 
-#include "programs/shared/simulation.hpp"
 #include <algorithm>
 #include <utility>
 

@@ -27,12 +27,14 @@ double damping(const Campbell& diagram, const Branch& branch, std::size_t point)
 class Panels {
 public:
     Panels(const Campbell& diagram, const CampbellPlotOptions& options, const std::string& prefix)
-        : d_(diagram), options_(options), prefix_(prefix) {
+        : d_(diagram),
+          options_(options),
+          prefix_(prefix),
+          rpm_(abscissae(diagram)),
+          low_(rpm_.front()),
+          high_(rpm_.back()) {
         for (const Branch& branch : diagram.branches)
             if (shows(diagram, branch)) branches_.push_back(&branch);
-        rpm_ = abscissae(diagram);
-        low_ = rpm_.front();
-        high_ = rpm_.back();
         for (const Branch* branch : branches_) take_range(diagram, *branch);
         for (const OtherDiagram& other : options.others) {
             const std::vector<double> x = abscissae(*other.diagram);

@@ -1,11 +1,11 @@
 // Two blades in bending: both planes, coupled by the twist.
+#include "examples/studies/beam_accuracy/cases.hpp"
+#include "examples/studies/beam_accuracy/chain.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/machines/nrel5mw_blade.hpp"
 #include "turbines/machines/wt600.hpp"
 
-#include "examples/studies/beam_accuracy/cases.hpp"
-#include "examples/studies/beam_accuracy/chain.hpp"
 #include <cmath>
 
 namespace cardan::accuracy {

@@ -1,6 +1,7 @@
 // Vibrations at rest.
 #include "examples/studies/beam_accuracy/cases.hpp"
 #include "examples/studies/beam_accuracy/chain.hpp"
+
 #include <cmath>
 
 namespace cardan::accuracy {

@@ -1,8 +1,8 @@
 // Uniform cantilevers spinning about their root, mass on a line.
-#include "mbs/base/error.hpp"
-
 #include "examples/studies/beam_accuracy/cases.hpp"
 #include "examples/studies/beam_accuracy/chain.hpp"
+#include "mbs/base/error.hpp"
+
 #include <cmath>
 
 namespace cardan::accuracy {

@@ -1,8 +1,8 @@
 // Buckling and large deflections: what needs no mass.
 #include "elements/sections/reference_line.hpp"
-
 #include "examples/studies/beam_accuracy/cases.hpp"
 #include "examples/studies/beam_accuracy/chain.hpp"
+
 #include <cmath>
 
 namespace cardan::accuracy {

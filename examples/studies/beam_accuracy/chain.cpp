@@ -1,6 +1,8 @@
 #include "examples/studies/beam_accuracy/chain.hpp"
 
 #include "elements/sections/quadrature.hpp"
+#include "examples/studies/beam_accuracy/corotational.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
@@ -10,8 +12,6 @@
 #include "solvers/equilibrium/load_path.hpp"
 #include "solvers/linear/modes.hpp"
 
-#include "examples/studies/beam_accuracy/corotational.hpp"
-#include "examples/studies/beams/mixed_beam.hpp"
 #include <cmath>
 
 namespace cardan::accuracy {

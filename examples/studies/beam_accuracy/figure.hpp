@@ -3,6 +3,7 @@
 #pragma once
 
 #include "examples/studies/beam_accuracy/study.hpp"
+
 #include <filesystem>
 
 namespace cardan::accuracy {

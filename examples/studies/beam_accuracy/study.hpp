@@ -3,6 +3,7 @@
 #pragma once
 
 #include "examples/studies/beam_accuracy/method.hpp"
+
 #include <functional>
 #include <iosfwd>
 

@@ -16,10 +16,10 @@
 #pragma once
 
 #include "elements/sections/section.hpp"
-
 #include "examples/studies/beams/assumed_modes_basis.hpp"
 #include "examples/studies/beams/assumed_modes_section.hpp"
 #include "examples/studies/beams/hub_motion.hpp"
+
 #include <array>
 
 namespace cardan {

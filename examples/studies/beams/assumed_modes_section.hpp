@@ -3,8 +3,8 @@
 #pragma once
 
 #include "elements/sections/section.hpp"
-
 #include "examples/studies/beams/hub_motion.hpp"
+
 #include <array>
 #include <span>
 

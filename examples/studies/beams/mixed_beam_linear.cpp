@@ -1,11 +1,11 @@
 // Boundary equations, steady state and small vibrations of the mixed beam.
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/spatial.hpp"
 
 #include <Eigen/Geometry>
 
-#include "examples/studies/beams/mixed_beam.hpp"
 #include <algorithm>
 
 namespace cardan {

@@ -3,10 +3,9 @@
 /// joint chain of turbines/machines/nrel5mw_blade.hpp, and the model of a 2018 paper (docs/nrel5mw_paper2018.md).
 #pragma once
 
+#include "examples/studies/beams/assumed_modes_blade.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/machines/nrel5mw_blade.hpp"
-
-#include "examples/studies/beams/assumed_modes_blade.hpp"
 
 namespace cardan::turbines {
 

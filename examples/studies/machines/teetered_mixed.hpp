@@ -3,9 +3,9 @@
 /// Lee, Hodges and Patil (2002): the same description with a different model, without a tree or joint chain.
 #pragma once
 
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "turbines/machines/teetered.hpp"
 
-#include "examples/studies/beams/mixed_beam.hpp"
 #include <cstdint>
 #include <optional>
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
+
 #include <array>
 #include <string>
 #include <vector>

@@ -4,6 +4,7 @@
 
 #include "examples/studies/beams/assumed_modes_basis.hpp"
 #include "programs/shared/command_line.hpp"
+
 #include <string>
 
 namespace cardan::paper2018 {

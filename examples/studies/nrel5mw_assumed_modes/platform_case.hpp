@@ -2,9 +2,9 @@
 /// Periodic response of the blade to gravity and to a pitching platform, by assumed modes.
 #pragma once
 
+#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 #include "solvers/periodic/forced_response.hpp"
 
-#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 #include <array>
 #include <string>
 #include <vector>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "examples/studies/nrel5mw_assumed_modes/frequencies.hpp"
+
 #include <filesystem>
 
 namespace cardan::paper2018 {

@@ -2,9 +2,9 @@
 /// Frequencies of the NREL 5 MW machine beside those of OpenFAST.
 #pragma once
 
+#include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
 #include "solvers/campbell/mode_names.hpp"
 
-#include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
 #include <array>
 #include <optional>
 #include <span>

@@ -1,12 +1,12 @@
 #include "examples/studies/nrel5mw_controlled/damper.hpp"
 
-#include "mbs/base/error.hpp"
-#include "mbs/base/units.hpp"
-#include "solvers/pictures/history.hpp"
-
 #include "examples/studies/nrel5mw_controlled/loop.hpp"
 #include "examples/studies/nrel5mw_controlled/simulate.hpp"
+#include "mbs/base/error.hpp"
+#include "mbs/base/units.hpp"
 #include "programs/shared/program.hpp"
+#include "solvers/pictures/history.hpp"
+
 #include <cmath>
 #include <cstdio>
 

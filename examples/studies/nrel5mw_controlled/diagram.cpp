@@ -1,9 +1,9 @@
 #include "examples/studies/nrel5mw_controlled/diagram.hpp"
 
+#include "programs/shared/program.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/pictures/campbell.hpp"
 
-#include "programs/shared/program.hpp"
 #include <cmath>
 #include <cstdio>
 #include <iostream>

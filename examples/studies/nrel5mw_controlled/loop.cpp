@@ -1,14 +1,14 @@
 #include "examples/studies/nrel5mw_controlled/loop.hpp"
 
+#include "examples/studies/nrel5mw_controlled/prony.hpp"
+#include "examples/studies/nrel5mw_controlled/simulate.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/program.hpp"
 #include "solvers/pictures/history.hpp"
 #include "turbines/machines/nrel5mw_controller.hpp"
 
-#include "examples/studies/nrel5mw_controlled/prony.hpp"
-#include "examples/studies/nrel5mw_controlled/simulate.hpp"
-#include "programs/shared/program.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -3,12 +3,12 @@
 /// controller as a program or in continuous time.
 #pragma once
 
+#include "examples/studies/nrel5mw_controlled/wind.hpp"
 #include "solvers/linear/modes.hpp"
 #include "turbines/analysis/controlled_machine.hpp"
 #include "turbines/control/actuators.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 
-#include "examples/studies/nrel5mw_controlled/wind.hpp"
 #include <functional>
 #include <string>
 

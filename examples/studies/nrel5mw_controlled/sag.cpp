@@ -1,10 +1,10 @@
 #include "examples/studies/nrel5mw_controlled/sag.hpp"
 
 #include "mbs/base/error.hpp"
+#include "programs/shared/simulation_run.hpp"
 #include "turbines/electric/nrel5mw_generator.hpp"
 #include "turbines/model/channels.hpp"
 
-#include "programs/shared/simulation_run.hpp"
 #include <cmath>
 #include <cstdio>
 

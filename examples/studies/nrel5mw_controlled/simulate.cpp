@@ -1,9 +1,8 @@
 #include "examples/studies/nrel5mw_controlled/simulate.hpp"
 
 #include "mbs/base/outcome.hpp"
-#include "turbines/model/channels.hpp"
-
 #include "programs/shared/program.hpp"
+#include "turbines/model/channels.hpp"
 
 namespace cardan::controlled {
 

@@ -2,9 +2,9 @@
 /// The machine under the program, in time.
 #pragma once
 
+#include "examples/studies/nrel5mw_controlled/machine.hpp"
 #include "solvers/time/recorder.hpp"
 
-#include "examples/studies/nrel5mw_controlled/machine.hpp"
 #include <memory>
 #include <string>
 

@@ -1,10 +1,10 @@
 #include "examples/studies/nrel5mw_controlled/steps.hpp"
 
+#include "examples/studies/nrel5mw_controlled/simulate.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-
-#include "examples/studies/nrel5mw_controlled/simulate.hpp"
 #include "programs/shared/simulation_run.hpp"
+
 #include <cmath>
 #include <cstdio>
 

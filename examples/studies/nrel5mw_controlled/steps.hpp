@@ -3,6 +3,7 @@
 #pragma once
 
 #include "examples/studies/nrel5mw_controlled/machine.hpp"
+
 #include <string>
 
 namespace cardan::controlled {

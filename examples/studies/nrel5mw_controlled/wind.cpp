@@ -3,9 +3,9 @@
 #include "elements/control/variable_speed_controller.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/words.hpp"
 #include "turbines/machines/nrel5mw_controller.hpp"
 
-#include "programs/shared/words.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,13 +1,12 @@
 #include "examples/studies/nrel5mw_floating/decay.hpp"
 
 #include "mbs/base/units.hpp"
+#include "programs/shared/named_values.hpp"
+#include "programs/shared/simulation.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/campbell/mode_names.hpp"
 #include "solvers/linear/linearise.hpp"
 #include "turbines/model/channels.hpp"
-
-#include "programs/shared/named_values.hpp"
-#include "programs/shared/simulation.hpp"
 
 namespace cardan::floating {
 

@@ -1,14 +1,14 @@
 #include "examples/studies/nrel5mw_floating/free_modes.hpp"
 
+#include "examples/studies/nrel5mw_floating/pairing.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/campbell_program.hpp"
 #include "solvers/campbell/csv.hpp"
 #include "solvers/campbell/mode_names.hpp"
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/pictures/campbell.hpp"
 
-#include "examples/studies/nrel5mw_floating/pairing.hpp"
-#include "programs/shared/campbell_program.hpp"
 #include <algorithm>
 #include <cstdio>
 

@@ -3,10 +3,10 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/remarks.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "turbines/analysis/steady_rotation.hpp"
 
-#include "programs/shared/remarks.hpp"
 #include <algorithm>
 
 namespace cardan::floating {

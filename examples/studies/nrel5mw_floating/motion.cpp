@@ -1,11 +1,11 @@
 #include "examples/studies/nrel5mw_floating/motion.hpp"
 
-#include "mbs/base/units.hpp"
-#include "turbines/model/channels.hpp"
-
 #include "examples/studies/motion_option.hpp"
 #include "examples/studies/nrel5mw_floating/lines.hpp"
+#include "mbs/base/units.hpp"
 #include "programs/shared/simulation.hpp"
+#include "turbines/model/channels.hpp"
+
 #include <fstream>
 #include <iomanip>
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "examples/studies/nrel5mw_floating/machine.hpp"
+
 #include <array>
 
 namespace cardan::floating {

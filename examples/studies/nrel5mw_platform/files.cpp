@@ -1,9 +1,9 @@
 #include "examples/studies/nrel5mw_platform/files.hpp"
 
 #include "mbs/base/pending_file.hpp"
+#include "programs/shared/simulation.hpp"
 #include "turbines/model/channels.hpp"
 
-#include "programs/shared/simulation.hpp"
 #include <iomanip>
 #include <sstream>
 #include <utility>

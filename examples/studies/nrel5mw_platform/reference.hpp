@@ -3,6 +3,7 @@
 #pragma once
 
 #include "examples/studies/nrel5mw_platform/response.hpp"
+
 #include <array>
 #include <string>
 #include <vector>

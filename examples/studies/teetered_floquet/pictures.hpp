@@ -2,9 +2,9 @@
 /// Mode shapes of the teetered machine in the arrangement of Figs. 3 to 14 of Lee, Hodges and Patil (2002).
 #pragma once
 
+#include "examples/studies/teetered_floquet/published.hpp"
 #include "solvers/campbell/diagram.hpp"
 
-#include "examples/studies/teetered_floquet/published.hpp"
 #include <filesystem>
 
 namespace cardan::teetered {

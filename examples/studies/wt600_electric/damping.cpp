@@ -1,17 +1,17 @@
 #include "examples/studies/wt600_electric/damping.hpp"
 
+#include "examples/studies/drive_train.hpp"
+#include "examples/studies/wt600_simulation.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "programs/shared/program.hpp"
+#include "programs/shared/words.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/pictures/campbell.hpp"
 #include "turbines/electric/electric_wt600.hpp"
 #include "turbines/model/generator_slip.hpp"
 
-#include "examples/studies/drive_train.hpp"
-#include "examples/studies/wt600_simulation.hpp"
-#include "programs/shared/program.hpp"
-#include "programs/shared/words.hpp"
 #include <cstdio>
 #include <iostream>
 #include <numeric>

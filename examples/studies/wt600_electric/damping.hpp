@@ -3,6 +3,7 @@
 #pragma once
 
 #include "examples/studies/wt600_electric/motion.hpp"
+
 #include <string>
 
 namespace cardan::electric {

@@ -1,10 +1,10 @@
 #include "examples/studies/wt600_electric/motion.hpp"
 
+#include "examples/studies/wt600_simulation.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/electric/electric_wt600.hpp"
 
-#include "examples/studies/wt600_simulation.hpp"
 #include <cmath>
 #include <cstdio>
 

@@ -2,12 +2,11 @@
 // tension beside the line. Reference: the Cosserat rod in rotating axes (oracles/cosserat_rod), which shares nothing
 // with the elements, not even the section matrix (oracles/rod_section).
 #include "elements/cardan_beam/distributed_load.hpp"
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/elements/cardan_beam/spinning_rods.hpp"
 #include "tests/support/catch.hpp"
-
-#include "examples/studies/beams/mixed_beam.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;

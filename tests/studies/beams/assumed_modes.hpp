@@ -2,9 +2,8 @@
 /// Uniform beams by assumed modes.
 #pragma once
 
-#include "mbs/base/entry.hpp"
-
 #include "examples/studies/beams/assumed_modes_blade.hpp"
+#include "mbs/base/entry.hpp"
 
 namespace cardan::testing {
 

@@ -1,12 +1,11 @@
 // Frequencies of the mixed beam of Lee, Hodges and Patil (2002) against printed digits, closed forms and oracles.
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "mbs/base/entry.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/oracles/rotating_beam_series.hpp"
 #include "tests/oracles/rotating_blade.hpp"
 #include "tests/support/catch.hpp"
-
-#include "examples/studies/beams/mixed_beam.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -1,10 +1,9 @@
 // Statics, derivatives and refusals of the mixed beam of Lee, Hodges and Patil (2002).
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
-
-#include "examples/studies/beams/mixed_beam.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -1,5 +1,6 @@
 // The NREL 5 MW blade by assumed modes: the tables of the paper of 2018 by its own functions,
 // converged frequencies, response to gravity and platform motion, and the joint chain beside it.
+#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
@@ -11,8 +12,6 @@
 #include "turbines/machines/nrel5mw_platform.hpp"
 #include "turbines/tables/csv.hpp"
 #include "turbines/tables/detail/embedded_data.hpp"
-
-#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 
 namespace cardan::testing::nrel5mw_assumed_modes {
 

@@ -1,5 +1,6 @@
 // The whole two-bladed machine with the mixed element of the paper, by Hill's method: an independent way to the
 // frequencies of the joint chain.
+#include "examples/studies/machines/teetered_mixed.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
@@ -7,7 +8,6 @@
 #include "tests/turbines/machines/teetered/teetered_floquet.hpp"
 #include "tests/turbines/machines/teetered/teetered_machine.hpp"
 
-#include "examples/studies/machines/teetered_mixed.hpp"
 #include <tuple>
 
 using namespace cardan;

@@ -1,4 +1,5 @@
 // Frequencies and damping in the wind against ElastoDyn with AeroDyn; what the limits of a dynamic wake are.
+#include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/point.hpp"
 #include "tests/support/catch.hpp"
@@ -8,7 +9,6 @@
 #include "turbines/operation/aeroelastic.hpp"
 #include "turbines/tables/csv.hpp"
 
-#include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
 #include <algorithm>
 #include <array>
 #include <map>

@@ -82,9 +82,10 @@ void take_row(const InfluenceParts& parts, double s, InfluenceState& out) {
 
 // What the flow around the tower and its wake add to the wind.
 Vec3 disturbance(const InfluenceParts& parts, const InfluenceState& at) {
-    const Vec3 flow = tower_influence(parts.influence, at.wind, at.across, at.drag);
-    if (parts.shadow == TowerShadow::none) return flow;
-    return flow + tower_shadow(parts.shadow, at.wind, at.across, at.drag, at.turbulence);
+    Vec3 flow = tower_influence(parts.influence, at.wind, at.across, at.drag);
+    if (parts.shadow != TowerShadow::none)
+        flow += tower_shadow(parts.shadow, at.wind, at.across, at.drag, at.turbulence);
+    return flow;
 }
 TowerInfluenceSlopes disturbance_slopes(const InfluenceParts& parts, const InfluenceState& at) {
     TowerInfluenceSlopes out = tower_influence_slopes(parts.influence, at.wind, at.across, at.drag);

@@ -8,9 +8,10 @@
 
 namespace cardan::turbines {
 
-RigidRotor::RigidRotor(const Machine& machine) : machine_(&machine), air_(&machine.require_air()) {
-    radius_ = air_->blade.position.back() * std::cos(machine.description.blade.cone);
-}
+RigidRotor::RigidRotor(const Machine& machine)
+    : machine_(&machine),
+      air_(&machine.require_air()),
+      radius_(air_->blade.position.back() * std::cos(machine.description.blade.cone)) {}
 
 double RigidRotor::ratio() const {
     const MachineOperation& own = machine_->operation;

@@ -112,8 +112,8 @@ public:
         if (rows.empty()) return;
         group(key, [&] {
             for (const RowColumn<Row>& column : columns) {
-                std::vector<double> values;
-                for (const Row& row : rows) values.push_back(row.*column.of);
+                std::vector<double> values(rows.size());
+                std::ranges::transform(rows, values.begin(), column.of);
                 numbers(column.name, values);
             }
         });

@@ -1,11 +1,10 @@
 // Motion of the root of a blade of the NREL 5 MW machine on a moving platform.
+#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 #include "mbs/base/units.hpp"
 #include "tests/oracles/jet.hpp"
 #include "tests/oracles/platform_frames.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
-
-#include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 
 namespace cardan::testing::blade_root_tests {
 

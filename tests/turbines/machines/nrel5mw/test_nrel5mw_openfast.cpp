@@ -1,6 +1,7 @@
 // The whole NREL 5 MW machine beside OpenFAST 5.0.0: linearisation with multi-blade transformation, gravity on, no
 // aerodynamics, generator and yaw bearing locked. A peer's numbers with idealisations of their own, which an
 // independent model of ElastoDyn has as well. [docs/nrel5mw.md]
+#include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 #include "tests/oracles/elastodyn_turbine.hpp"
@@ -10,7 +11,6 @@
 #include "turbines/tables/csv.hpp"
 #include "turbines/tables/detail/embedded_data.hpp"
 
-#include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
 #include <algorithm>
 
 namespace cardan::testing::nrel5mw_openfast {

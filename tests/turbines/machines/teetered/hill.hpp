@@ -3,12 +3,12 @@
 /// Floquet exponents than integration, and one that takes descriptor systems as they are.
 #pragma once
 
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 
 #include <Eigen/SparseLU>
 
-#include "examples/studies/beams/mixed_beam.hpp"
 #include <algorithm>
 #include <array>
 #include <functional>

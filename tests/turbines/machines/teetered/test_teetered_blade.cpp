@@ -1,4 +1,5 @@
 // The blade of the two-bladed teetered machine, clamped to a rigid hub, at rest and at 6.02 rad/s.
+#include "examples/studies/beams/mixed_beam.hpp"
 #include "mbs/base/entry.hpp"
 #include "solvers/linear/modes.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
@@ -6,8 +7,6 @@
 #include "tests/support/catch.hpp"
 #include "tests/turbines/machines/teetered/teetered_machine.hpp"
 #include "turbines/machines/teetered.hpp"
-
-#include "examples/studies/beams/mixed_beam.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
