@@ -69,6 +69,27 @@ int holder(const std::string& path) {
     return 0;
 }
 
+// Where symbolic links lead, whether or not there is a file yet; they stay, and what they lead to is written.
+fs::path behind_links(fs::path path) {
+    constexpr int most = 40;  // as the kernel's
+    std::error_code code;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(path, code)); ++links) {
+        if (links == most) throw FileError(path.string(), "cannot be written: too many symbolic links");
+        const fs::path to = fs::read_symlink(path, code);
+        if (code) throw FileError(path.string(), text("cannot be written: ", code.message()));
+        path = path.parent_path() / to;  // `to` alone where that is absolute
+    }
+    return path;
+}
+
+void refuse_if_not_ordinary(const fs::path& path) {
+    std::error_code code;
+    const fs::file_status there = fs::status(path, code);
+    if (fs::is_directory(there)) throw FileError(path.string(), "is a folder, not a file");
+    if (fs::exists(there) && !fs::is_regular_file(there))
+        throw FileError(path.string(), "exists and is not an ordinary file; it is not replaced");
+}
+
 }  // namespace
 
 std::string lock_holder(const std::string& path) {
@@ -82,11 +103,13 @@ std::string lock_holder(const std::string& path) {
     return answer;
 }
 
-PendingFile::PendingFile(const fs::path& path) : path_(path.string()), partial_(path_ + ".partial") {
-    if (path_.empty()) throw FileError("(empty path)", "a file name is needed");
+PendingFile::PendingFile(const fs::path& given) {
+    if (given.empty()) throw FileError("(empty path)", "a file name is needed");
+    refuse_if_not_ordinary(given);
+    const fs::path path = behind_links(given);
+    path_ = path.string();
+    partial_ = path_ + ".partial";
     std::error_code code;
-    const fs::file_status there = fs::status(path, code);
-    if (fs::is_directory(there)) throw FileError(path_, "is a folder, not a file");
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, code)) {
         const bool missing = !code || code == std::errc::no_such_file_or_directory;
@@ -94,10 +117,7 @@ PendingFile::PendingFile(const fs::path& path) : path_(path.string()), partial_(
                                        : text("the folder '", folder.string(), "': ", code.message()));
     }
     if (!path.has_filename()) throw FileError(path_, "a file name is needed");
-    if (fs::exists(there) && !fs::is_regular_file(there)) {
-        throw FileError(path_, "exists and is not an ordinary file; it is not replaced");
-    }
-    if (fs::exists(there)) refuse_if_written(path_);
+    if (fs::exists(path, code)) refuse_if_written(path_);
     while (!lock_partial()) {
     }
 }
@@ -151,7 +171,8 @@ void PendingFile::commit(bool replace) const {
 // Whoever writes a file has it locked before it gets its name. A file that is there is kept from being written while it
 // is replaced; one that is not there must not have appeared when the name is given.
 void PendingFile::give_name(bool replace) const {
-    for (;;) {
+    constexpr int most = 100;
+    for (int attempt = 0; attempt < most; ++attempt) {
         const Opened older(path_, O_RDONLY | O_NONBLOCK);
         const bool none = older.fd() < 0 && errno == ENOENT;
         if (!none && !replace) throw FileError(path_, "is there already");
@@ -164,6 +185,7 @@ void PendingFile::give_name(bool replace) const {
         if (!code) return;
         throw FileError(path_, text("cannot be completed: ", code.message(), " (renaming ", partial_, ")"));
     }
+    throw FileError(path_, text("cannot be completed: files of this name come and go (renaming ", partial_, ")"));
 }
 
 // Removed while it is locked: who waits for the lock sees that the file has gone.

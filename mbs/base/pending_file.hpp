@@ -18,6 +18,7 @@ public:
     /// Checks that the file can be created, and creates an empty partial file or keeps the existing one. Throws
     /// FileError if the folder is missing, permission is lacking, path names a folder, a device or a pipe, or another
     /// program is writing the file (and says which).
+    /// @param path  symbolic links are followed: they stay, and path() is what they lead to
     explicit PendingFile(const std::filesystem::path& path);
     ~PendingFile();
     PendingFile(const PendingFile&) = delete;

@@ -112,6 +112,30 @@ TEST_CASE("pending file: what a killed program has left behind is known and can 
     CHECK(folder.files() == 0);
 }
 
+TEST_CASE("pending file: a symbolic link stays, and what it leads to is written", "[property]") {
+    const Folder folder;
+    fs::create_directory(folder / "sub");
+    fs::create_symlink("sub/far.csv", folder / "near.csv");
+    fs::create_symlink("near.csv", folder / "nearer.csv");
+    for (const char* contents : {"not there yet", "there already"}) {
+        write_file(folder / "nearer.csv", contents);
+        CHECK(bytes_of(folder / "sub/far.csv") == contents);
+        CHECK(fs::is_symlink(folder / "near.csv"));
+        CHECK(fs::is_symlink(folder / "nearer.csv"));
+        CHECK(folder.files() == 3);
+    }
+    CHECK(PendingFile(folder / "nearer.csv").partial() == folder / "sub/far.csv.partial");
+    fs::create_symlink(fs::path(folder / "sub/far.csv"), folder / "absolute.csv");
+    write_file(folder / "absolute.csv", "by the whole path");
+    CHECK(bytes_of(folder / "near.csv") == "by the whole path");
+    fs::create_symlink("no/such/folder.csv", folder / "nowhere.csv");
+    CHECK_THROWS_WITH(write_file(folder / "nowhere.csv", ""), Contains("no/such' does not exist"));
+    fs::create_symlink("circle.csv", folder / "circle.csv");
+    CHECK_THROWS_WITH(write_file(folder / "circle.csv", ""), Contains("too many symbolic links"));
+    fs::create_symlink("/dev/null", folder / "null.csv");
+    CHECK_THROWS_WITH(write_file(folder / "null.csv", ""), Contains("not an ordinary file"));
+}
+
 TEST_CASE("pending file: a lock that was handed over protects the file from being discarded by others", "[property]") {
     const Folder folder;
     const std::string path = folder / "a.h5";
