@@ -26,7 +26,7 @@ void TorqueLaw::check(std::string_view where) const {
     require_positive(where, "rated speed [rad/s]", rated_speed);
     require_positive(where, "rated torque [N m]", rated_torque);
     require_not_negative(where, "optimal gain [N m s^2]", optimal_gain);
-    require_positive(where, "slip", slip);
+    if (!(slip >= 1e-4 && slip <= 1)) throw InputError(where, "slip", slip, "1e-4 ... 1");
     if (!(transition_speed() < rated_speed))
         throw InputError(where, "optimal gain [N m s^2]", optimal_gain,
                          "such that its parabola meets the line of the slip below the rated speed");

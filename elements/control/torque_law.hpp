@@ -29,8 +29,8 @@ struct TorqueLaw {
     double transition_speed() const;
     /// @param speed  rad/s
     At at(double speed) const;
-    /// @throws InputError naming `where` unless speed, torque and slip are positive, the gain is not negative and the
-    /// parabola meets the line below the rated speed
+    /// @throws InputError naming `where` unless speed and torque are positive, the slip is 1e-4 ... 1, the gain is not
+    /// negative and the parabola meets the line below the rated speed
     void check(std::string_view where) const;
 };
 

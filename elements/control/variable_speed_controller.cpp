@@ -33,8 +33,25 @@ void VariableSpeedParameters::check() const {
     if (!(cut_in < optimum_from && optimum_from < transition && transition < rated_speed))
         throw InputError(name, "speeds of the torque curve [rad/s]",
                          text(cut_in, ", ", optimum_from, ", ", transition, ", ", rated_speed), "rising");
-    if (!(least_pitch < largest_pitch))
-        throw InputError(name, "range of the pitch [rad]", text(least_pitch, " ... ", largest_pitch), "rising");
+    const auto check_range = [this](double least) {
+        if (!(least < largest_pitch))
+            throw InputError(name, "range of the pitch [rad]", text(least, " ... ", largest_pitch), "rising");
+    };
+    check_range(least_pitch);
+    for (const PitchAtSpeed& one : least_pitches) check_range(one.pitch);
+    for (std::size_t i = 1; i < least_pitches.size(); ++i)
+        if (!(least_pitches[i].speed > least_pitches[i - 1].speed))
+            throw InputError(name, "speeds of the least pitches [rad/s]",
+                             text(least_pitches[i - 1].speed, ", ", least_pitches[i].speed), "rising");
+}
+
+double VariableSpeedParameters::least_pitch_at(double speed) const {
+    if (least_pitches.empty()) return least_pitch;
+    const auto above = std::ranges::lower_bound(least_pitches, speed, {}, &PitchAtSpeed::speed);
+    if (above == least_pitches.begin()) return above->pitch;
+    const PitchAtSpeed& below = *(above - 1);
+    if (above == least_pitches.end()) return below.pitch;
+    return std::lerp(below.pitch, above->pitch, (speed - below.speed) / (above->speed - below.speed));
 }
 
 VariableSpeedController::VariableSpeedController(VariableSpeedParameters parameters) : own_(std::move(parameters)) {
@@ -71,14 +88,15 @@ void VariableSpeedController::begin_integral(double pitch) {
 double VariableSpeedController::demanded_pitch(double error, double pitch) {
     const VariableSpeedParameters& p = own_;
     double& sum = memory_[pitch_integral];
+    const double least = p.least_pitch_at(memory_[filtered_speed]);
     if (!p.gains.empty()) {
         const PitchGains own = gains_at(pitch);
-        sum = std::clamp(sum + own.integral * error * p.period, p.least_pitch, p.largest_pitch);
+        sum = std::clamp(sum + own.integral * error * p.period, least, p.largest_pitch);
         return own.proportional * error + sum;
     }
     const double own_gain = gain(pitch);
-    sum = std::clamp(sum + error * p.period, p.least_pitch / (own_gain * p.integral),
-                     p.largest_pitch / (own_gain * p.integral));
+    sum =
+        std::clamp(sum + error * p.period, least / (own_gain * p.integral), p.largest_pitch / (own_gain * p.integral));
     return own_gain * (p.proportional * error + p.integral * sum);
 }
 
@@ -102,7 +120,7 @@ VariableSpeedController::Demand VariableSpeedController::step(const Measured& no
 
     // The integral cannot ask for more than the range of the pitch.
     const double wanted =
-        std::clamp(demanded_pitch(speed - p.reference_speed, now.pitch), p.least_pitch, p.largest_pitch);
+        std::clamp(demanded_pitch(speed - p.reference_speed, now.pitch), p.least_pitch_at(speed), p.largest_pitch);
     const double step = p.largest_pitch_rate * p.period;
     double& pitch = memory_[pitch_before];
     pitch = std::clamp(wanted, pitch - step, pitch + step);

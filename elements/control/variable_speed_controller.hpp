@@ -20,6 +20,12 @@ struct PitchGains {
     double integral = 0;      ///< 1 (rad per rad)
 };
 
+/// A row of least pitches.
+struct PitchAtSpeed {
+    double speed = 0;  ///< of the generator, rad/s
+    double pitch = 0;  ///< rad
+};
+
 /// Parameters, SI, of the generator's side of the gearbox.
 ///                    [J. Jonkman, S. Butterfield, W. Musial, G. Scott 2009, NREL/TP-500-38060, section 7]
 struct VariableSpeedParameters {
@@ -46,10 +52,14 @@ struct VariableSpeedParameters {
     /// Gains over the pitch in the place of those three, linear between the rows, constant beyond the ends.
     std::vector<PitchGains> gains = {};
     double least_pitch = 0, largest_pitch = 0;  ///< rad
-    double largest_pitch_rate = 0;              ///< rad/s
+    /// In the place of least_pitch, over the filtered speed of the generator; linear between the rows, constant beyond.
+    std::vector<PitchAtSpeed> least_pitches = {};
+    double largest_pitch_rate = 0;  ///< rad/s
 
     /// From optimum_from up to the rated speed.
     TorqueLaw torque_law() const { return {rated_speed, rated_power / rated_speed, optimal_gain, slip}; }
+    /// At a filtered speed of the generator, rad.
+    double least_pitch_at(double speed) const;
     /// @throws InputError naming the parameter
     void check() const;
 };

@@ -126,6 +126,8 @@ VariableSpeedEquivalent variable_speed_equivalent(const VariableSpeedParameters&
         return Point{g, -g * g / k};
     };
     const auto inverse_gain = [k = p.doubling_pitch](double pitch) { return Point{1 + pitch / k, 1 / k}; };
+    if (!p.least_pitches.empty())
+        throw InputError(p.name, "least pitches over the speed", p.least_pitches.size(), "none here: least_pitch");
     const SoftLimits limits{p.least_pitch, p.largest_pitch, rounding.pitch / (p.largest_pitch - p.least_pitch)};
     limits.check(p.name, "pitch");
     const ControlSignal wanted = measured.pitch.through(gain) * (p.proportional * error + signal::state(name.name)),

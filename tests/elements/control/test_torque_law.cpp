@@ -51,7 +51,8 @@ TEST_CASE("torque law: numbers of no law are refused", "[property]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     check_refused([] { TorqueLaw{-1, 1, 1, 1}.check("m.yaml"); }, {"m.yaml", "rated speed"});
     check_refused([] { TorqueLaw{100, 0, 0, 0.1}.check("m.yaml"); }, {"rated torque"});
-    check_refused([] { TorqueLaw{100, 50, 0, 0}.check("m.yaml"); }, {"slip"});
+    for (const double slip : {0.0, 1e-9, 99.999, nan})
+        check_refused([slip] { TorqueLaw{100, 50, 0, slip}.check("m.yaml"); }, {"slip", "1e-4 ... 1"});
     check_refused([nan] { TorqueLaw{100, 50, nan, 0.1}.check("m.yaml"); }, {"optimal gain"});
     check_refused([] { TorqueLaw{100, 50, 1, 0.1}.check("m.yaml"); }, {"optimal gain", "meets the line"});
     CHECK_NOTHROW(law().check("m.yaml"));

@@ -27,6 +27,24 @@ TEST_CASE("variable-speed controller: the torque curve of the NREL 5 MW machine"
     CHECK(controller.torque(115, 2 * units::degree) * 115 == Approx(5.29661e6).epsilon(1e-12));
 }
 
+TEST_CASE("variable-speed controller: the least pitch over the speed", "[analytic]") {
+    VariableSpeedParameters p = turbines::nrel5mw_controller();
+    p.least_pitches = {{60, 0.1}, {100, 0.02}, {120, -0.01}};
+    for (const auto& [speed, least] : {std::pair(20.0, 0.1), {60, 0.1}, {80, 0.06}, {110, 0.005}, {150, -0.01}})
+        CHECK(p.least_pitch_at(speed) == Approx(least).epsilon(1e-14));
+    // Far below its reference the speed asks for less than the least pitch, from either side of it.
+    for (const double start : {0.0, 0.3}) {
+        VariableSpeedController controller(p);
+        double pitch = start;
+        for (int i = 0; i < 10000; ++i) pitch = controller.step({80, pitch}).pitch;
+        CHECK(pitch == Approx(0.06).epsilon(1e-12));
+    }
+    p.least_pitches = {{100, 0.02}, {60, 0.1}};
+    check_refused([&] { p.check(); }, {"speeds of the least pitches", "rising"});
+    p.least_pitches = {{60, 2}};
+    check_refused([&] { p.check(); }, {"range of the pitch"});
+}
+
 TEST_CASE("variable-speed controller: a step of the speed, filtered and integrated by hand", "[analytic]") {
     VariableSpeedController controller(turbines::nrel5mw_controller());
     const VariableSpeedParameters& p = controller.parameters();
