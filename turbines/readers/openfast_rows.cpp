@@ -172,8 +172,8 @@ std::vector<OpenFastFile::Row> OpenFastFile::rows_below(std::string_view what) {
 std::vector<OpenFastFile::Row> OpenFastFile::rows_after(std::string_view keyword, std::size_t part) {
     const double count = number_of(keyword, part);
     std::vector<Row> rows;
-    for (auto at = lines_.begin() + (&line_of(keyword, part) - lines_.data()) + 1;
-         static_cast<double>(rows.size()) < count; ++at) {
+    auto at = lines_.begin() + (&line_of(keyword, part) - lines_.data()) + 1;
+    for (; static_cast<double>(rows.size()) < count; ++at) {
         if (at == lines_.end())
             throw ParseError(file_, lines_.back().number, 0,
                              cardan::text("row ", rows.size() + 1, " of the ", count, " that ", keyword,
@@ -184,6 +184,10 @@ std::vector<OpenFastFile::Row> OpenFastFile::rows_after(std::string_view keyword
         at->used = true;
         rows.push_back(std::move(row));
     }
+    if (!rows.empty() && at != lines_.end() && !at->heading && at->keyword.empty() &&
+        at->tokens.size() >= rows.back().values.size() && numbers_of(*at))
+        notes_.push_back({file_, at->number, std::string(keyword), digits(count),
+                          "rows behind so many are not read, as in OpenFAST", FileNote::Kind::left_out});
     return rows;
 }
 

@@ -84,7 +84,10 @@ bool has_control(OpenFastFile& file, Control control) {
 TorqueLaw torque_law(OpenFastFile& file) {
     if (!has_control(file, Control::torque_law)) return {};
     for (const char* keyword : {"VS_RtGnSp", "VS_RtTq", "VS_Rgn2K", "VS_SlPc"})
-        if (!file.has(keyword) || is_placeholder(file, keyword)) return {};
+        if (!file.has(keyword) || is_placeholder(file, keyword)) {
+            file.left_out("VSContrl", text("no law of the torque: ", keyword, " is not given"));
+            return {};
+        }
     const TorqueLaw law{file.number("VS_RtGnSp") * units::rpm, file.number("VS_RtTq"),
                         file.number("VS_Rgn2K") / (units::rpm * units::rpm), file.number("VS_SlPc") / 100};
     try {

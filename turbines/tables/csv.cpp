@@ -20,12 +20,15 @@ struct Field {
     int at;
 };
 
-Field field(std::string_view line, std::size_t begin, std::size_t end) {
-    while (begin < end && blanks.find(line[begin]) != std::string_view::npos) ++begin;
-    while (begin < end && blanks.find(line[end - 1]) != std::string_view::npos) --end;
-    const std::string_view before = line.substr(0, begin);  // bytes 10xxxxxx of UTF-8 continue a character
-    const auto characters = std::count_if(before.begin(), before.end(), [](char c) { return (c & 0xC0) != 0x80; });
-    return {line.substr(begin, end - begin), static_cast<int>(characters) + 1};
+// Of UTF-8: bytes 10xxxxxx continue a character.
+int characters(std::string_view bytes) {
+    return static_cast<int>(std::ranges::count_if(bytes, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string_view trimmed(std::string_view line) {
+    const std::size_t first = std::min(line.find_first_not_of(blanks), line.size());
+    line.remove_prefix(first);
+    return line.substr(0, line.find_last_not_of(blanks) + 1);
 }
 
 constexpr std::size_t any_number = static_cast<std::size_t>(-1);
@@ -33,10 +36,15 @@ constexpr std::size_t any_number = static_cast<std::size_t>(-1);
 /// At most `limit` fields: the last one then keeps its separators.
 std::vector<Field> split(std::string_view line, char separator, std::size_t limit = any_number) {
     std::vector<Field> fields;
-    std::size_t begin = 0;
+    std::size_t begin = 0, counted = 0;
+    int column = 1;  // of the character after `counted` bytes
     for (std::size_t next = 0; next <= line.size(); ++next) {
         if (next < line.size() && (line[next] != separator || fields.size() + 1 == limit)) continue;
-        fields.push_back(field(line, begin, next));
+        const std::string_view own = trimmed(line.substr(begin, next - begin));
+        const auto at = own.empty() ? next : static_cast<std::size_t>(own.data() - line.data());
+        column += characters(line.substr(counted, at - counted));
+        counted = at;
+        fields.push_back({own, column});
         begin = next + 1;
     }
     return fields;
@@ -136,14 +144,14 @@ CsvTable CsvTable::parse(std::string_view text_of_file, std::string_view file) {
     for (const Field& f : header.fields) {
         const std::size_t bracket = f.text.find('[');
         const bool good = bracket != std::string_view::npos && bracket > 0 && f.text.ends_with(']');
-        const Field name = field(f.text, 0, good ? bracket : 0);
-        const Field unit = field(f.text, good ? bracket + 1 : 0, good ? f.text.size() - 1 : 0);
-        if (name.text.empty() || unit.text.empty()) {
+        const std::string_view name = trimmed(f.text.substr(0, good ? bracket : 0));
+        const std::string_view unit = good ? trimmed(f.text.substr(bracket + 1, f.text.size() - bracket - 2)) : "";
+        if (name.empty() || unit.empty()) {
             lines.fail(header.number, f.at,
                        text("'", f.text, "' is not a header field: name[unit], with [-] for a pure number"));
         }
-        if (table.has(name.text)) lines.fail(header.number, f.at, text("column '", name.text, "' is there twice"));
-        table.columns_.push_back({std::string(name.text), std::string(unit.text), f.at, {}});
+        if (table.has(name)) lines.fail(header.number, f.at, text("column '", name, "' is there twice"));
+        table.columns_.push_back({std::string(name), std::string(unit), f.at, {}});
     }
     while (const std::optional<Line> row = lines.row(table.columns_.size())) {
         for (std::size_t k = 0; k < row->fields.size(); ++k) {

@@ -230,6 +230,13 @@ TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
     check_error(with("main.dat", "2 NumAFfiles - files\n", ""), {"not a file of AeroDyn 15", "NumAFfiles"});
 }
 
+TEST_CASE("aerodyn: rows of a polar behind those that are announced are told", "[property]") {
+    const Model model(newer);
+    CHECK(!test::has_note(model.read().notes, "NumAlf", "not read"));
+    model.replace("polar_1.dat", "4 NumAlf", "3 NumAlf");
+    CHECK(test::has_note(model.read().notes, "NumAlf", "rows behind so many are not read"));
+}
+
 TEST_CASE("aerodyn: polars that do not reach around the circle keep the values of their ends, as in AeroDyn",
           "[property]") {
     const auto first = [](const std::string& rows) {

@@ -122,7 +122,7 @@ TEST_CASE("servodyn: a ROSCO controller's file as Fortran reads it, with commas,
          {"3 ! PS_BldPitchMin_N\n7, 9, 11 ! PS_WindSpeeds\n0.05,0.03,0.04 ! PS_BldPitchMin\n",
           "3,!\tps_bldpitchmin_n\r\n7\t9\t11 !PS_WINDSPEEDS - m/s\r\n5.D-2 3.0-02 .04 ! PS_BldPitchMin",
           "! PS_WindSpeeds, from 7 m/s\n3 ! PS_BldPitchMin_N\n7 9 11 m/s ! PS_WindSpeeds\n"
-          "0.05 0.03 0.04 0.1 0.2 and so on ! PS_BldPitchMin\n",
+          "0.05 0.03 0.04 and so on ! PS_BldPitchMin: rad\n",
           "7 9 11 ! PS_WindSpeeds\n0.05 0.03 0.04 ! PS_BldPitchMin\n"}) {
         CAPTURE(same);
         const ServoDyn read = file.read(same);
@@ -151,6 +151,14 @@ TEST_CASE("servodyn: what of a ROSCO controller's file is not whole is refused w
     CHECK_THAT(file.message(count + winds + pitch + "4.5.6 ! VS_RtPwr\n"), Contains("DISCON.IN:11: VS_RtPwr: '4.5.6'"));
     CHECK_THAT(file.message(count + winds + pitch + "90 ! pc_refspd\n"),
                Contains("DISCON.IN:11: pc_refspd is there already, in line 2"));
+    // A comma is no decimal point and parts no thousands; lists are as long as they say.
+    CHECK_THAT(file.message(count + winds + pitch + "90,000 ! VS_RtPwr\n"),
+               Contains("DISCON.IN:11: VS_RtPwr: 1 number expected, then '000'"));
+    CHECK_THAT(file.message("2 ! PS_BldPitchMin_N\n" + winds + pitch),
+               Contains("DISCON.IN:9: PS_WindSpeeds: 2 numbers expected, then '11'"));
+    CHECK_THAT(file.message("2.5 ! PS_BldPitchMin_N\n" + winds + pitch), Contains("2.5; allowed: whole numbers"));
+    CHECK(file.read(winds + pitch + "5e6 W ! VS_RtPwr: electrical\n80 ! VS_GenEff(%)\n").operation.rated_power ==
+          6.25e6);
     // Power: electrical over the efficiency, else torque at the rated speed.
     CHECK(file.read(winds + pitch + "5e6 ! VS_RtPwr\n80 ! VS_GenEff\n7 ! VS_RtTq\n").operation.rated_power == 6.25e6);
     CHECK(file.read(winds + pitch + "5e6 ! VS_RtPwr\n70 ! VS_RtTq\n").operation.rated_power == 7000);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace cardan::turbines {
 
@@ -22,7 +23,7 @@ constexpr auto rosco_keywords = std::to_array<std::string_view>(
 std::string keyword_of(std::string_view remark) {
     const std::vector<std::string_view> words = words_of(remark);
     if (words.empty()) return {};
-    const std::string word = lower_case(words.front());
+    const std::string word = lower_case(words.front().substr(0, words.front().find_first_of(":(=")));
     return std::ranges::find(rosco_keywords, word) == rosco_keywords.end() ? std::string() : word;
 }
 
@@ -62,14 +63,26 @@ double ControllerFile::number_in(std::string_view keyword, const Entry& entry, s
     return *value;
 }
 
+// "90,000" is two numbers.
+void ControllerFile::check_end(std::string_view keyword, const Entry& entry, std::size_t count) const {
+    if (entry.words.size() > count && fortran_number(entry.words[count]))
+        throw ParseError(name_, entry.line, 0,
+                         text(keyword, ": ", count, count == 1 ? " number" : " numbers", " expected, then '",
+                              entry.words[count], "'"));
+}
+
+bool ControllerFile::has(std::string_view keyword) const {
+    return entries_.contains(lower_case(keyword));
+}
+
 std::optional<double> ControllerFile::number(std::string_view keyword) const {
-    const auto found = entries_.find(lower_case(keyword));
-    if (found == entries_.end()) return std::nullopt;
-    return number_in(keyword, found->second, 0);
+    return has(keyword) ? std::optional(required(keyword)) : std::nullopt;
 }
 
 double ControllerFile::required(std::string_view keyword) const {
-    return number_in(keyword, entry_of(keyword), 0);
+    const Entry& entry = entry_of(keyword);
+    check_end(keyword, entry, 1);
+    return number_in(keyword, entry, 0);
 }
 
 std::vector<double> ControllerFile::numbers(std::string_view keyword, std::size_t count) const {
@@ -78,10 +91,18 @@ std::vector<double> ControllerFile::numbers(std::string_view keyword, std::size_
     std::vector<double> values;
     values.reserve(count);
     for (std::size_t i = 0; i < count; ++i) values.push_back(number_in(keyword, entry, i));
+    check_end(keyword, entry, count);
     return values;
 }
 
 namespace {
+
+// How many rows there are.
+std::size_t whole(const ControllerFile& file, const char* keyword, double announced) {
+    if (!(announced >= 1 && announced <= 1e6 && announced == std::floor(announced)))
+        file.fail(keyword, text(announced, "; allowed: whole numbers, 1 ... 1e6"));
+    return static_cast<std::size_t>(announced);
+}
 
 // Over the wind; empty: there is none.
 std::vector<PitchAtWind> least_pitch(const ControllerFile& file) {
@@ -91,8 +112,7 @@ std::vector<PitchAtWind> least_pitch(const ControllerFile& file) {
     if (!given && file.count(winds_of) != file.count(pitch_of))
         file.fail(pitch_of, text(file.count(pitch_of), " numbers for ", file.count(winds_of), " wind speeds"));
     const double announced = given.value_or(static_cast<double>(file.count(winds_of)));
-    if (!(announced >= 1 && announced <= 1e6)) file.fail(count_of, text(announced, "; allowed: 1 ... 1e6"));
-    const auto count = static_cast<std::size_t>(announced);
+    const std::size_t count = whole(file, count_of, announced);
     const std::vector<double> winds = file.numbers(winds_of, count), pitch = file.numbers(pitch_of, count);
     std::vector<PitchAtWind> out;
     out.reserve(count);
@@ -136,10 +156,9 @@ ControllerGains gains_of(const ControllerFile& file) {
     out.max_pitch = of("PC_MaxPit");
     out.max_pitch_rate = of("PC_MaxRat");
     constexpr auto angles = "PC_GS_angles";
-    if (!file.number(angles) || !file.number("PC_GS_KP") || !file.number("PC_GS_KI")) return out;
+    if (!file.has(angles) || !file.has("PC_GS_KP") || !file.has("PC_GS_KI")) return out;
     const double announced = file.number("PC_GS_n").value_or(static_cast<double>(file.count(angles)));
-    if (!(announced >= 1 && announced <= 1e6)) file.fail("PC_GS_n", text(announced, "; allowed: 1 ... 1e6"));
-    const auto count = static_cast<std::size_t>(announced);
+    const std::size_t count = whole(file, "PC_GS_n", announced);
     const std::vector<double> pitch = file.numbers(angles, count), proportional = file.numbers("PC_GS_KP", count),
                               integral = file.numbers("PC_GS_KI", count);
     for (std::size_t i = 0; i < count; ++i) {

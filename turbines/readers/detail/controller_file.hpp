@@ -12,8 +12,8 @@
 
 namespace cardan::turbines {
 
-/// Commas, tabs and blanks separate, numbers are Fortran's, keywords count in any case. As ROSCO does, readers take the
-/// numbers they expect; what stands behind them is a remark.
+/// Commas, tabs and blanks separate, numbers are Fortran's, keywords count in any case. Readers take the numbers they
+/// expect; words behind them are a remark, a further number is an error.
 class ControllerFile {
 public:
     /// Of any text: entries are the lines with something before the "!" and one of the keywords that are read here as
@@ -23,11 +23,12 @@ public:
     ControllerFile(std::string_view text, std::string name);
 
     [[nodiscard]] bool is_rosco() const { return !entries_.empty(); }
-    /// None: there is no such entry.  @throws ParseError with file and line unless it begins with a number
+    [[nodiscard]] bool has(std::string_view keyword) const;
+    /// None: there is no such entry.  @throws ParseError with file and line unless it is one number
     [[nodiscard]] std::optional<double> number(std::string_view keyword) const;
     /// @throws ParseError unless there is one
     [[nodiscard]] double required(std::string_view keyword) const;
-    /// The first so many.  @throws ParseError unless the entry has them
+    /// @throws ParseError unless the entry has so many
     [[nodiscard]] std::vector<double> numbers(std::string_view keyword, std::size_t count) const;
     /// How many numbers or words.  @throws ParseError unless there is such an entry
     [[nodiscard]] std::size_t count(std::string_view keyword) const { return entry_of(keyword).words.size(); }
@@ -39,6 +40,7 @@ private:
         int line;
     };
     [[nodiscard]] const Entry& entry_of(std::string_view keyword) const;
+    void check_end(std::string_view keyword, const Entry& entry, std::size_t count) const;
     [[nodiscard]] double number_in(std::string_view keyword, const Entry& entry, std::size_t i) const;
 
     std::string name_;
