@@ -39,7 +39,7 @@ Ratings ratings_of(const Machine& machine) {
     const double speed = gains.rated_speed > 0 ? gains.rated_speed : machine.operation.rotor_speed * ratio;
     if (!(speed > 0)) refuse("rated speed of the machine [rad/s]");
     const double torque = gains.rated_torque > 0 ? gains.rated_torque : machine.operation.rated_power / speed;
-    if (!(torque > 0)) refuse("rated power of the machine [W]");
+    if (!(torque > 0)) refuse("MachineOperation::rated_power [W]");
     return {ratio, speed, torque};
 }
 
@@ -140,6 +140,8 @@ VariableSpeedParameters baseline_controller(const Machine& machine, const Report
     p.largest_torque_rate = first_of(gains.max_torque_rate, torque_rate_ratio * rated.torque);
     p.constant_power_pitch = largest_fine_pitch(machine) + 1 * units::degree;
     p.least_pitch = machine.operation.pitch;
+    for (const PitchAt& one : machine.operation.pitch_schedule)
+        p.least_pitches.push_back({one.rotor_speed * rated.ratio, one.pitch});
     p.largest_pitch = first_of(gains.max_pitch, pi / 2);
     p.largest_pitch_rate = first_of(gains.max_pitch_rate, pitch_rate_ratio * rated.rotor_speed());
     std::string from = text("gains of ", gains.source);

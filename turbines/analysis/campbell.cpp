@@ -190,6 +190,10 @@ CampbellDiagram campbell(const Machine& source, const CampbellSettings& settings
     s.machine.foundation.reset();  // it is the machine's now
     CampbellDiagram diagram =
         s.winds.empty() ? over_rotor_speed(machine, std::move(s)) : over_wind(machine, std::move(s));
+    if (std::ranges::none_of(diagram.points, [](const solvers::CampbellPoint& one) { return !one.modes.empty(); }) &&
+        diagram.complete && !diagram.points.empty())
+        throw InputError(machine.description.name, text("modes up to ", *diagram.settings.max_frequency_hz, " Hz"), 0,
+                         "some; a model that switches off all that bends has none: MachineSettings::tower, blades");
     const std::string foundation = foundation_in_words(machine);
     diagram.remark += text(diagram.remark.empty() || foundation.empty() ? "" : "; ", foundation);
     diagram.accuracy = in_words(diagram.mesh);

@@ -37,6 +37,13 @@ void check(const Controller& c) {
                          "0: there is no controller to follow");
 }
 
+std::string least_in_words(const VariableSpeedParameters& p) {
+    std::string rows;
+    for (const PitchAtSpeed& one : p.least_pitches)
+        rows += text(rows.empty() ? "" : "; ", digits(one.pitch), " at ", digits(one.speed), " rad/s");
+    return rows.empty() ? digits(p.least_pitch) : rows;
+}
+
 // All numbers, since a caller may set them.
 std::string in_words(const VariableSpeedParameters& p) {
     std::string words =
@@ -45,7 +52,7 @@ std::string in_words(const VariableSpeedParameters& p) {
              " N m s^2/rad^2, slip ", digits(p.slip), ", rated ", digits(p.rated_power), " W, ",
              p.constant_power ? "constant power" : "constant torque", " from ", digits(p.constant_power_pitch),
              " rad, at most ", digits(p.largest_torque), " N m and ", digits(p.largest_torque_rate),
-             " N m/s, pitch for ", digits(p.reference_speed), " rad/s, ", digits(p.least_pitch), " to ",
+             " N m/s, pitch for ", digits(p.reference_speed), " rad/s, ", least_in_words(p), " to ",
              digits(p.largest_pitch), " rad, at most ", digits(p.largest_pitch_rate), " rad/s, gains");
     if (p.gains.empty())
         return text(words, " ", digits(p.proportional), " s and ", digits(p.integral), ", halved at ",

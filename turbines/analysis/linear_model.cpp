@@ -105,7 +105,8 @@ MachineLinearModel at_operating_point(const Machine& machine, LinearModelSetting
                                      .harmonics = *s.harmonics,
                                      .azimuths = s.azimuths,
                                      .max_frequency_hz = *s.max_frequency_hz,
-                                     .report = s.report});
+                                     .report = s.report,
+                                     .cancelled = s.cancelled});
     report_remark(s.report, {Remark::Kind::taken, in_words(run.ready.mesh)});
     find_points(run);
     if (run.points.empty()) throw NumericalError(text("no operating point at ", *s.wind, " m/s"));
@@ -134,7 +135,10 @@ solvers::LinearModel linearised(const Turbine& turbine, const LinearModelSetting
     const auto about_periodic = [&] {
         return linearised_about(
             turbine, s, spin,
-            steady_rotation(turbine, speed, {.harmonics = s.harmonics.value_or(harmonics_without_wind)}, s.report), {});
+            steady_rotation(turbine, speed,
+                            {.harmonics = s.harmonics.value_or(harmonics_without_wind), .cancelled = s.cancelled},
+                            s.report),
+            {});
     };
     if (s.gravity && speed != 0) return about_periodic();
     solvers::SteadyState state;

@@ -112,9 +112,25 @@ AssemblyOptions assembly_options(const Machine& machine, const MachineSettings& 
     return o;
 }
 
+namespace {
+
+// A speed or an angle in another unit, before the work.
+void check(const TurbineDescription& d, double rotor_speed, double pitch) {
+    constexpr double largest_tip_speed = 1000;  // m/s
+    const double tip_speed = std::abs(rotor_speed) * (d.hub.radius + d.blade.line.length);
+    if (!(tip_speed <= largest_tip_speed))
+        throw InputError(text(d.name, " at ", rounded(rotor_speed * units::to_rpm), " rpm"), "tip speed [m/s]",
+                         rounded(tip_speed), text("at most ", largest_tip_speed, ", three times that of sound"));
+    if (!(std::abs(pitch) <= 2 * pi))
+        throw InputError(d.name, "pitch [deg]", rounded(pitch * units::to_degrees), "at most a turn either way");
+}
+
+}  // namespace
+
 PreparedTurbine assembled(const Machine& machine, AssemblyOptions assembly, double max_hz, double rotor_speed,
                           const Report& report) {
     const TurbineDescription& description = machine.description;
+    check(description, rotor_speed, assembly.pitch);
     assembly.mesh.largest_hz = max_hz;
     assembly.mesh.rotor_speed = rotor_speed;
     const Turbine turbine = assemble(description, assembly);

@@ -175,8 +175,9 @@ struct SimulationSettings {
     solvers::Method method = solvers::Method::dirk;
     SimulationStart start = SimulationStart::steady;
     bool gravity = true;
-    Report report = {};                    ///< receives the remarks as they arise: Simulation::remarks() has all
-    std::function<bool()> cancelled = {};  ///< asked before every step; true: the run ends
+    Report report = {};  ///< receives the remarks as they arise: Simulation::remarks() has all
+    /// Asked often; true: the run ends, before its start is found with a NumericalError.
+    std::function<bool()> cancelled = {};
 };
 
 /// How a machine runs over the wind: its schedule (MachineOperation::schedule, read_schedule()), or variable speed, if
@@ -253,6 +254,8 @@ struct LinearModelSettings {
     OperationSettings operation = {};
     VibrationSettings vibration = {};
     Report report = {};  ///< receives the remarks as they arise
+    /// Asked often while the state is sought about which the model is linear; true: NumericalError.
+    std::function<bool()> cancelled = {};
 };
 
 /// Of Simulation::record().

@@ -44,6 +44,9 @@ solvers::IntegrationOptions integration_of(const SimulationSettings& o,
 void check(const RecordSettings& options, const Machine& machine) {
     require_positive("RecordSettings::duration", "value [s]", duration_of(options, machine));
     require_positive("RecordSettings::step", "value [s]", options.step);
+    if (options.step > duration_of(options, machine))
+        throw InputError("RecordSettings::step", "value [s]", options.step,
+                         text("at most the duration, ", duration_of(options, machine), " s"));
 }
 
 std::vector<ChannelGroup> all_channels(const SimulationModel& model, const Stations& stations) {

@@ -12,6 +12,7 @@ solvers::PeriodicSteadyState steady_rotation(const Turbine& turbine, double roto
     periodic.rotor_speed = rotor_speed;
     periodic.harmonics = options.harmonics;
     periodic.rotor = &turbine.rotor();
+    periodic.cancelled = options.cancelled;
     const auto solve = [&] { return solvers::harmonic_balance(turbine.system(), turbine.rotor().spin, periodic); };
     solvers::PeriodicSteadyState state = solve();
     if (!state.converged && state.residual < options.good) {

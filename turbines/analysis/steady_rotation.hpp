@@ -6,6 +6,8 @@
 #include "turbines/analysis/remark.hpp"
 #include "turbines/model/assembly.hpp"
 
+#include <functional>
+
 namespace cardan::turbines {
 
 struct SteadyRotationOptions {
@@ -13,6 +15,7 @@ struct SteadyRotationOptions {
     /// Out of balance by less, residual over stiffness, rad or m, a state is taken as well, with a note: free yaw,
     /// which nothing holds, has hardly any equilibrium.
     double good = 1e-7;
+    std::function<bool()> cancelled = {};  ///< asked often; true: NumericalError
 };
 
 /// By harmonic balance. What the solver notes is reported.

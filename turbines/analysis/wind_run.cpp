@@ -19,7 +19,7 @@ void take(const Report& report, const std::string& words) {
 
 std::string in_words(const VariableSpeed& law, const std::string& source) {
     const std::string pitch =
-        law.least_pitch.empty() ? digits(law.fine_pitch * units::to_degrees) + " deg" : "at least as scheduled";
+        law.least_pitch.empty() ? rounded(law.fine_pitch * units::to_degrees) + " deg" : "at least as scheduled";
     return text("operation: tip-speed ratio ", digits(law.tip_speed_ratio, std::chars_format::fixed, 3), ", ",
                 rounded(law.least_speed * units::to_rpm), " to ", rounded(law.rated_speed * units::to_rpm),
                 " rpm, pitch ", pitch, "; ", rounded(law.rated_power / 1e3), " kW on the rotor from rated wind on",

@@ -102,7 +102,7 @@ TEST_CASE("baseline controller: a model's gains go before the machine's own, the
 TEST_CASE("baseline controller: what it needs and the machine does not say is refused", "[property]") {
     Machine machine = another_machine(90);
     machine.operation.rated_power = 0;
-    check_refused([&] { static_cast<void>(baseline_controller(machine)); }, {"Controller::baseline()", "rated power"});
+    check_refused([&] { static_cast<void>(baseline_controller(machine)); }, {"Controller::baseline()", "rated_power"});
     machine = another_machine(90);
     machine.operation.rotor_speed = 0;
     check_refused([&] { static_cast<void>(baseline_controller(machine)); }, {"Controller::baseline()", "rated speed"});

@@ -189,7 +189,7 @@ void take_generator(const Machine& machine, SimulationSettings& s, const Report&
     const SlippingGenerator& own = machine.controller.generator;
     if (own.slope == 0) {
         if (!s.wind->is_none())
-            report_remark(report, {.text = "the model's law of the generator's torque is not part of the model: the "
+            report_remark(report, {.text = "the model has no law of the generator's torque that is known here: the "
                                            "torque of the start stays"});
         return;
     }

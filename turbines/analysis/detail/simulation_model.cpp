@@ -39,19 +39,20 @@ std::optional<MachineAir> air_on(const Turbine& turbine, const Machine& machine,
                       support_on(turbine, machine, air.support));
 }
 
-solvers::PeriodicSteadyState rotation_in_wind(const Turbine& at_start, double speed, const Report& report) {
+solvers::PeriodicSteadyState rotation_in_wind(const Turbine& at_start, const SimulationSettings& o,
+                                              const Report& report) {
     try {
-        return steady_rotation(at_start, speed, {.good = good_start}, report);
+        return steady_rotation(at_start, *o.rotor_speed, {.good = good_start, .cancelled = o.cancelled}, report);
     } catch (const NumericalError& error) {
         throw NumericalError(text(error.what(), "; give the generator's torque: SimulationSettings::generator_torque"));
     }
 }
 
 // About the shaft, mean over a revolution in steady rotation, N m.
-double torque_of(const MachineAir& air, const Turbine& at_start, double speed, const Report& report) {
-    if (speed == 0) return 0;
+double torque_of(const MachineAir& air, const Turbine& at_start, const SimulationSettings& o, const Report& report) {
+    if (*o.rotor_speed == 0) return 0;
     const int azimuths = std::max(24, air.least_azimuths());
-    const solvers::PeriodicSteadyState state = rotation_in_wind(at_start, speed, report);
+    const solvers::PeriodicSteadyState state = rotation_in_wind(at_start, o, report);
     const Model& model = at_start.system().model;
     Workspace workspace(model);
     double sum = 0;
@@ -100,19 +101,21 @@ void add_rotor_torque(const RotorTorque& torque, SimulationModel& model) {
 double driving_torque(const Machine& machine, const SimulationSettings& o, const std::optional<MachineAir>& air,
                       const Turbine& at_start, const Report& report) {
     if (air && !o.generator_torque && dofs_of(machine.description).generator)
-        return torque_of(*air, at_start, *o.rotor_speed, report);
+        return torque_of(*air, at_start, o, report);
     return !air && o.controller.acts() && o.rotor_torque.acts() ? o.rotor_torque.values.front() : 0;
 }
 
 // Empty, with the reason reported: there is no steady state, or it was not found.
-std::optional<SimulationState> steady_start(const Turbine& turbine, double speed, double azimuth,
-                                            const Report& report) {
+std::optional<SimulationState> steady_start(const Turbine& turbine, const SimulationSettings& o, const Report& report) {
+    const double speed = *o.rotor_speed, azimuth = *o.azimuth;
     try {
         const solvers::OperatingPoint at =
-            speed == 0 ? standstill(turbine, azimuth)
-                       : steady_rotation(turbine, speed, {.good = good_start}, report).at(azimuth);
+            speed == 0
+                ? standstill(turbine, azimuth)
+                : steady_rotation(turbine, speed, {.good = good_start, .cancelled = o.cancelled}, report).at(azimuth);
         return SimulationState{at.q, at.qd};
     } catch (const NumericalError& error) {
+        if (o.cancelled && o.cancelled()) throw;
         report_remark(report, {.text = text("the start is undeformed: ", error.what())});
         return std::nullopt;
     }
@@ -153,7 +156,7 @@ SimulationState start_of(const Turbine& at_start, const SimulationSettings& o, c
     const System& system = at_start.system();
     const int spin = at_start.rotor().spin;
     std::optional<SimulationState> start;
-    if (o.start == SimulationStart::steady) start = steady_start(at_start, *o.rotor_speed, *o.azimuth, report);
+    if (o.start == SimulationStart::steady) start = steady_start(at_start, o, report);
     if (!start) start = {Vector::Zero(system.model.size()), Vector::Zero(system.model.size())};
     start->q(spin) = *o.azimuth;
     start->qd(spin) = *o.rotor_speed;

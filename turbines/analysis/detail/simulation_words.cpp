@@ -51,7 +51,9 @@ std::string in_words(const SimulationSettings& o) {
 }
 
 void check(const SimulationSettings& o) {
-    require_positive("SimulationSettings::tolerance", "value", o.tolerance);
+    constexpr double loosest = 0.1;
+    if (!(o.tolerance > 0 && o.tolerance <= loosest))
+        throw InputError("SimulationSettings::tolerance", "value", o.tolerance, text("> 0, at most ", loosest));
     for (const auto& [field, value] : {std::pair("SimulationSettings::azimuth", o.azimuth.value_or(0)),
                                        {"SimulationSettings::generator_torque", o.generator_torque.value_or(0)},
                                        {"SimulationSettings::generator_slope", o.generator_slope}})
