@@ -53,14 +53,13 @@ std::string rows(const solvers::History& history) {
 
 void write_csv(const ConvertArguments& a) {
     const solvers::History history = solvers::read_history(a.machine.model, a.selection);
+    if (history.time.empty())
+        throw InputError(a.machine.model, "rows", 0, "some: --from and --to are its first and last time");
     write_file(a.to, rows(history));
     std::cout << a.to << ": " << history.time.size() << " rows of " << history.channels.size() << " channels\n";
 }
 
 void write_yaml(ConvertArguments& a) {
-    std::error_code error;
-    if (std::filesystem::equivalent(a.to, a.machine.model, error))
-        throw InputError("to", "file", a.to, "another one than the machine's");
     const turbines::Machine machine = prepared_machine(a.machine);
     if (machine.air) print_notes(machine.air->notes, a.machine, "notes on the air");
     turbines::write_machine(machine, a.to);
@@ -73,12 +72,12 @@ int run(ConvertArguments& a, const CommandLine& /*command*/) {
     const bool yaml = turbines::is_yaml(a.to);
     if (!yaml && std::filesystem::path(a.to).extension() != ".csv")
         throw InputError("to", "file", a.to, "one that ends in .yaml (a machine) or .csv (a time history)");
-    check_outputs(a.to, {""});
+    check_outputs(a.to, {""}, a.machine.model);
     if (yaml)
         write_yaml(a);
     else
         write_csv(a);
-    return std::cout.flush() ? 0 : 1;
+    return 0;
 }
 
 }  // namespace

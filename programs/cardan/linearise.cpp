@@ -91,6 +91,7 @@ turbines::LinearModelSettings settings_of(const LineariseArguments& a) {
     s.operation = operation_of(a.air.wind);
     s.vibration = vibration_of(a.air);
     s.report = remarks_printed(a.machine.notes);
+    s.cancelled = interrupted;
     return s;
 }
 
@@ -105,6 +106,7 @@ solvers::CampbellOptions modes_of(const turbines::MachineLinearModel& linear, so
     options.spin = spin;
     options.max_frequency_hz = *linear.settings.max_frequency_hz;
     options.keep_shapes = false;
+    options.cancelled = interrupted;
     return options;
 }
 
@@ -234,8 +236,8 @@ int run(LineariseArguments& a, const CommandLine& command) {
     require_numbers(a);
     const turbines::LinearModelSettings settings = settings_of(a);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "linear_wind" : "linear");
-    check_outputs(a.out, {".h5", ".mat"});
-    if (a.lin) check_outputs(a.out, {".1.lin"});
+    check_outputs(a.out, {".h5", ".mat"}, a.machine.model);
+    if (a.lin) check_outputs(a.out, {".1.lin"}, a.machine.model);
     turbines::Machine machine = prepared_machine(a.machine);
     check_stations(machine, a.machine, a.stations);
     if (windy) take_wind(machine, a.air.wind, a.machine);

@@ -101,6 +101,8 @@ void declare(CommandLine& app, SimulateArguments& a) {
         "--generator-torque", a.torque,
         "of the generator on its own shaft, N m, constant, or with a controller at the start; positive brakes "
         "positive rotation (default: none; in the wind that of the air in steady rotation)");
+    app.add_option("--rated-power", a.rated_power, "kW on the rotor, for a controller (default: the model's)")
+        .positive();
     app.add_option("--generator-slope", a.slope,
                    "rise of this torque with the generator's speed above that at the start, as of slip, N m s/rad");
     app.add_option("--wind", a.wind,

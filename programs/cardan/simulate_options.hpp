@@ -29,7 +29,7 @@ struct SimulateArguments {
     StationOptions stations;
     ControllerArguments controller;
     AirArguments air;
-    std::optional<double> rpm, torque, azimuth, duration;
+    std::optional<double> rpm, torque, azimuth, duration, rated_power;
     std::string start = "steady", rotor_torque, wind;
     double slope = 0;
     bool no_gravity = false, list = false;

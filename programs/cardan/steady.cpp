@@ -63,8 +63,8 @@ struct Revolution {
 
 Revolution revolution(const turbines::Turbine& turbine, double speed, const SteadyArguments& a) {
     if (speed == 0) return {{turbines::standstill(turbine, a.azimuth * units::degree)}, "at rest"};
-    const solvers::PeriodicSteadyState state =
-        turbines::steady_rotation(turbine, speed, {.harmonics = a.revolution.harmonics}, remarks_printed(false));
+    const solvers::PeriodicSteadyState state = turbines::steady_rotation(
+        turbine, speed, {.harmonics = a.revolution.harmonics, .cancelled = interrupted}, remarks_printed(false));
     Revolution all;
     const double turn = std::copysign(2 * pi, speed);  // in the order of time
     for (int i = 0; i < a.revolution.azimuths; ++i) all.states.push_back(state.at(turn * i / a.revolution.azimuths));
@@ -107,8 +107,8 @@ int run(SteadyArguments& a, const CommandLine& command) {
     const std::vector<double> winds = winds_of(a.wind);
     static_cast<void>(stations_of(a.revolution.stations));
     if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "wind" : "steady");
-    check_outputs(a.out, {".h5", ".svg", ".png"});
-    if (windy) check_outputs(a.out, wind_outputs);
+    check_outputs(a.out, {".h5", ".svg", ".png"}, a.machine.model);
+    if (windy) check_outputs(a.out, wind_outputs, a.machine.model);
     turbines::Machine machine = prepared_machine(a.machine);
     check_stations(machine, a.machine, a.revolution.stations);
     if (windy) {

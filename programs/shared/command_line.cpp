@@ -191,9 +191,24 @@ std::string CommandLine::subcommand() {
     return app_->get_subcommands().front()->get_name();
 }
 
+namespace {
+
+// A variable of the shell that is not set, as a rule: CLI11 takes the default for it.
+void refuse_empty_words(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        const bool assigned = word.starts_with("--") && word.ends_with('=');
+        if (word.empty() || assigned)
+            throw CLI::ValidationError(assigned ? argv[i] : argv[i - 1], "followed by an empty word");
+    }
+}
+
+}  // namespace
+
 int CommandLine::parse(int argc, char** argv) {
     app_->set_version_flag("--version", std::string(version()));
     try {
+        refuse_empty_words(argc, argv);
         app_->parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app_->exit(error) == 0 ? 0 : 2;

@@ -9,13 +9,16 @@
 #include "programs/shared/progress.hpp"
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <initializer_list>
 #include <iostream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <unistd.h>
 
 namespace cardan::program {
@@ -54,10 +57,16 @@ inline void ask_to_stop(int signal) {
 
 /// Files that cannot be written are noticed before the work, not after it, and what a killed run has left
 /// behind is named and removed.
-inline void check_outputs(const std::string& prefix, std::initializer_list<const char*> endings) {
+/// @param source  what the machine is read from, which is not replaced
+inline void check_outputs(const std::string& prefix, std::initializer_list<const char*> endings,
+                          const std::string& source = {}) {
     if (std::filesystem::path(prefix).filename().empty())
         throw InputError("--out", "prefix", prefix, "a path that ends in a file name");
     for (const char* ending : endings) {
+        std::error_code none;
+        if (std::filesystem::equivalent(prefix + ending, source, none))
+            throw InputError("output", "file", prefix + ending,
+                             "another one than the machine's, which it would replace");
         const PendingFile file(prefix + ending);
         if (file.left_over())
             std::cerr << "note: " << file.partial() << " was left behind by a run that was killed; it is removed\n";
@@ -72,6 +81,15 @@ void introduce(const Turbine& turbine, bool summary) {
     for (const std::string& warning : turbine.warnings()) std::cerr << "warning: " << warning << "\n";
 }
 
+/// @return 0, or 1 if what was printed has not arrived (a full disk), which is said
+inline int shown(const char* name) {
+    errno = 0;
+    if (std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return 0;
+    std::cerr << name << ": standard output cannot be written"
+              << (errno != 0 ? ": " + std::generic_category().message(errno) : "") << "\n";
+    return 1;
+}
+
 /// What ends a program: its errors, and the signals that came.
 /// @param name  for messages
 /// @param body  returns an exit code, 130 if it was interrupted
@@ -82,6 +100,7 @@ int with_errors(const char* name, const Body& body) {
     int code = 1;
     try {
         code = body();
+        if (code == 0) code = shown(name);
         if (code != 130) return code;
     } catch (const Error& error) {
         std::cerr << name << ": " << in_options(error.what()) << "\n";

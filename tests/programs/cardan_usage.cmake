@@ -110,3 +110,19 @@ set_tests_properties(usage_damping_again PROPERTIES FIXTURES_REQUIRED usage_damp
 
 # Signals, and what is said of long work.
 add_test(NAME usage_long_work COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/programs/long_work.sh $<TARGET_FILE:cardan> WORKING_DIRECTORY ${test_output_dir})
+# What a shell makes of an empty variable.
+add_refusal(empty_rpm 2 "--rpm=: followed by an empty word" simulate --rpm=)
+add_refusal(empty_out 2 "--out=: followed by an empty word" modes --out=)
+# Numbers in another unit, and those with which everything would be right.
+add_example_test(usage_fast_rotor cardan 1 "at 1e[+]06 rpm: tip speed .m/s. = 2[.0-9]+e[+]06; allowed: at most 1000" campbell wt600
+                 ${few} --rpm 1e6)
+add_example_test(usage_many_turns cardan 1 "pitch .deg. = 1e[+]09; allowed: at most a turn" simulate wt600 --pitch 1e9)
+add_example_test(usage_no_tolerance cardan 1 "--tolerance: value = 1e[+]10; allowed: > 0, at most 0.1" simulate wt600 --tolerance 1e10)
+add_example_test(usage_long_step cardan 1 "--step: value .s. = 5; allowed: at most the duration, 1 s" simulate wt600 ${few} --step 5
+                 --duration 1)
+# A result is a machine as well; it is not replaced by what is computed from it.
+add_example_test(usage_own_input_made cardan 0 "files" modes wt600 ${few} --out usage_own_input)
+add_example_test(usage_own_input cardan 1 "file = usage_own_input.h5; allowed: another one than the machine's" campbell usage_own_input.h5
+                 --out usage_own_input)
+set_tests_properties(usage_own_input_made PROPERTIES FIXTURES_SETUP usage_own_input)
+set_tests_properties(usage_own_input PROPERTIES FIXTURES_REQUIRED usage_own_input)
