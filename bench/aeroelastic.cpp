@@ -39,7 +39,7 @@ void diagram_point(benchmark::State& state, turbines::Wake wake, bool unsteady_p
     options.floquet.harmonics = 2;
     const turbines::Turbine& still = operation.machine_without_air();
     bench::Pairs times;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const double with_air = bench::cpu_time_of(
             [&] { benchmark::DoNotOptimize(turbines::aeroelastic_campbell(operation, points, air, options)); });
         times.add(with_air, bench::cpu_time_of([&] {

@@ -85,7 +85,7 @@ void beside(benchmark::State& state, void (Machine::*air)(), void (Machine::*str
         });
     };
     bench::Pairs times;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const double own = many(air);
         times.add(own, many(structure));
         state.SetIterationTime(own / 50);

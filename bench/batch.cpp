@@ -32,7 +32,7 @@ void speed_up(benchmark::State& state, Call&& call) {
     call(one);
     call(two);
     Clock::duration alone{}, together{};
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const auto start = Clock::now();
         call(two);
         together += Clock::now() - start;

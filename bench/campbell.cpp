@@ -51,7 +51,7 @@ void campbell_sweep(benchmark::State& state, Machine machine, const std::vector<
         solvers::restrict_to(solvers::linearise(system, solvers::steady_state(system, spin).at),
                              system.model.coordinates().free_without(spin), spin);
     bench::Pairs times;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const double sweep = bench::cpu_time_of(
             [&] { benchmark::DoNotOptimize(solvers::campbell(system, turbine.rotor(), speeds, options)); });
         times.add(sweep, bench::cpu_time_of([&] {
@@ -115,20 +115,20 @@ struct Stages {
 
 void point_steady_state(benchmark::State& state) {
     Stages stages;
-    for (auto _ : state) stages.steady_solver.solve(stages.options, stages.steady);
+    for ([[maybe_unused]] auto _ : state) stages.steady_solver.solve(stages.options, stages.steady);
     state.counters["iterations"] = stages.steady.iterations;
 }
 BENCHMARK(point_steady_state)->Unit(benchmark::kMicrosecond);
 
 void point_linearisation(benchmark::State& state) {
     Stages stages;
-    for (auto _ : state) stages.lineariser.linearise(stages.steady.at, stages.lin);
+    for ([[maybe_unused]] auto _ : state) stages.lineariser.linearise(stages.steady.at, stages.lin);
 }
 BENCHMARK(point_linearisation)->Unit(benchmark::kMicrosecond);
 
 void point_restriction_and_coleman(benchmark::State& state) {
     Stages stages;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         solvers::restrict_to(stages.lin, stages.unknowns, stages.rotor.spin, stages.z);
         stages.coleman.transform_in_place(stages.z, 0.3, Stages::speed);
     }
@@ -137,7 +137,7 @@ BENCHMARK(point_restriction_and_coleman)->Unit(benchmark::kMicrosecond);
 
 void point_modes(benchmark::State& state) {
     Stages stages;
-    for (auto _ : state) benchmark::DoNotOptimize(stages.mode_solver.solve(stages.z));
+    for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(stages.mode_solver.solve(stages.z));
     state.counters["unknowns"] = static_cast<double>(stages.unknowns.size());
 }
 BENCHMARK(point_modes)->Unit(benchmark::kMicrosecond);
@@ -150,7 +150,7 @@ void point_shares(benchmark::State& state) {
     Vector by_row;
     std::vector<solvers::Share> shares;
     const std::size_t count = stages.mode_solver.solve(stages.z);
-    for (auto _ : state)
+    for ([[maybe_unused]] auto _ : state)
         for (std::size_t i = 0; i < count; ++i) {
             stages.mode_solver.copy(i, mode);
             stages.mode_solver.energy_by_row(i, by_row);
@@ -163,12 +163,12 @@ void point_whole(benchmark::State& state) {
     solvers::PointSolver solver(machine().system(), machine().rotor());
     solvers::CampbellPoint point;
     double rpm = 19;
-    for (auto _ : state) solver.solve((rpm = 39 - rpm) * units::rpm, point);
+    for ([[maybe_unused]] auto _ : state) solver.solve((rpm = 39 - rpm) * units::rpm, point);
 }
 BENCHMARK(point_whole)->Unit(benchmark::kMicrosecond);
 
 void assembly(benchmark::State& state) {
-    for (auto _ : state) benchmark::DoNotOptimize(turbines::wt600(turbines::wt600_paper_assembly()));
+    for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(turbines::wt600(turbines::wt600_paper_assembly()));
 }
 BENCHMARK(assembly)->Unit(benchmark::kMillisecond);
 

@@ -38,18 +38,18 @@ struct Fixture {
 
 void kinematics_only(benchmark::State& state) {
     Fixture f(state);
-    for (auto _ : state) benchmark::DoNotOptimize(f.kin());
+    for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(f.kin());
 }
 void inverse_dynamics_newton_euler(benchmark::State& state) {
     Fixture f(state);
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         inverse_dynamics<double>(f.kin(), f.qd, f.qdd, f.tau);
         benchmark::ClobberMemory();
     }
 }
 void metric_full(benchmark::State& state) {
     Fixture f(state);
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         metric<double>(f.kin(), f.A);
         benchmark::ClobberMemory();
     }
@@ -58,7 +58,7 @@ void christoffel_all(benchmark::State& state) {
     Fixture f(state);
     Christoffel gamma(f.model);
     state.counters["symbols"] = static_cast<double>(gamma.stored());
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         christoffel_first_kind(f.kin(), gamma);
         benchmark::ClobberMemory();
     }
@@ -66,14 +66,14 @@ void christoffel_all(benchmark::State& state) {
 void forward_dynamics_articulated_body(benchmark::State& state) {
     Fixture f(state);
     ForwardDynamics forward(f.model);
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         forward.solve(f.kin(), f.qd, f.qdd, f.tau, f.other);
         benchmark::ClobberMemory();
     }
 }
 void inverse_dynamics_partial_derivatives(benchmark::State& state) {
     Fixture f(state);
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         inverse_dynamics_derivatives(f.kin(), f.qd, f.qdd, f.A, f.B);
         benchmark::ClobberMemory();
     }
@@ -84,13 +84,13 @@ void metric_factorised(benchmark::State& state) {
     MetricFactor factor(f.model);
     metric<double>(f.kin(), f.A);
     state.counters["entries"] = static_cast<double>(factor.stored());
-    for (auto _ : state) benchmark::DoNotOptimize(factor.factorise(f.A));
+    for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(factor.factorise(f.A));
 }
 void metric_factor_solve_vector(benchmark::State& state) {
     Fixture f(state);
     MetricFactor factor(f.model);
     if (!factor.factorise(f.kin())) state.SkipWithError("singular metric");
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         f.tau = f.qdd;
         factor.solve(f.tau);
         benchmark::ClobberMemory();
@@ -100,7 +100,7 @@ void metric_factor_solve_matrix(benchmark::State& state) {
     Fixture f(state);
     MetricFactor factor(f.model);
     if (!factor.factorise(f.kin())) state.SkipWithError("singular metric");
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         f.A.setIdentity();
         factor.solve(f.A);
         benchmark::ClobberMemory();
@@ -110,7 +110,7 @@ void christoffel_symbols_visited(benchmark::State& state) {
     Fixture f(state);
     Christoffel gamma(f.model);
     christoffel_first_kind(f.kin(), gamma);
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         f.tau.setZero();
         for (auto [a, b, c, value] : gamma.symbols()) f.tau(a) += (b == c ? 1 : 2) * value * f.qd(b) * f.qd(c);
         benchmark::ClobberMemory();
@@ -120,7 +120,7 @@ void christoffel_contraction(benchmark::State& state) {
     Fixture f(state);
     Christoffel gamma(f.model);
     christoffel_first_kind(f.kin(), gamma);
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         gamma.contract(f.qd, f.qdd, f.tau);
         benchmark::ClobberMemory();
     }
@@ -128,7 +128,7 @@ void christoffel_contraction(benchmark::State& state) {
 void christoffel_along_the_spin(benchmark::State& state) {
     Fixture f(state);
     const int spin = f.turbine.rotor().spin;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         christoffel_along<double>(f.kin(), spin, f.A);
         benchmark::ClobberMemory();
     }
@@ -136,13 +136,13 @@ void christoffel_along_the_spin(benchmark::State& state) {
 void forward_dynamics_partial_derivatives(benchmark::State& state) {
     Fixture f(state);
     ForwardDynamicsDerivatives derivatives(f.model);
-    for (auto _ : state) benchmark::DoNotOptimize(derivatives.compute(f.kin(), f.qd, f.qdd));
+    for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(derivatives.compute(f.kin(), f.qd, f.qdd));
 }
 void curvature_force(benchmark::State& state) {
     Fixture f(state);
     Curvature curvature(f.model);
     if (!curvature.update(f.kin())) state.SkipWithError("singular metric");
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         curvature.force(f.qd, f.qdd, f.tau);
         benchmark::ClobberMemory();
     }
@@ -150,7 +150,7 @@ void curvature_force(benchmark::State& state) {
 void curvature_matrix(benchmark::State& state) {
     Fixture f(state);
     Curvature curvature(f.model);
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         benchmark::DoNotOptimize(curvature.update(f.kin()));
         curvature.matrix(f.qd, f.A);
         benchmark::ClobberMemory();

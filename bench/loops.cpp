@@ -69,7 +69,7 @@ void accelerations(benchmark::State& state) {
     const int our_calls = bench::calls_per_turn(ours), their_calls = bench::calls_per_turn(theirs),
               tree_calls = bench::calls_per_turn(tree);
     bench::Pairs beside_simbody, beside_tree;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const double own = bench::seconds(our_calls, ours);
         beside_simbody.add(bench::seconds(their_calls, theirs), own);
         beside_tree.add(own, bench::seconds(tree_calls, tree));
@@ -100,7 +100,7 @@ void accelerations_beside_mujoco(benchmark::State& state) {
         return state.SkipWithError("Cardan and MuJoCo compute different numbers");
     const int our_calls = bench::calls_per_turn(ours), their_calls = bench::calls_per_turn(theirs);
     bench::Pairs pairs;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const double own = bench::seconds(our_calls, ours);
         pairs.add(bench::seconds(their_calls, theirs), own);
         state.SetIterationTime(own);
@@ -169,7 +169,7 @@ void motion(benchmark::State& state) {
     const auto other = [&] { benchmark::DoNotOptimize(fall.theirs(theirs)); };
     const int our_calls = bench::calls_per_turn(own), their_calls = bench::calls_per_turn(other);
     bench::Pairs pairs;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const double first = bench::seconds(their_calls, other), second = bench::seconds(our_calls, own);
         pairs.add(first, second);
         state.SetIterationTime(second);

@@ -110,7 +110,7 @@ void beside_simbody(benchmark::State& state, const std::string& tree_name, const
     const auto theirs = [&] { pair.simbody(); };
     const int our_calls = bench::calls_per_turn(ours), their_calls = bench::calls_per_turn(theirs);
     bench::Pairs times;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const double own = bench::seconds(our_calls, ours);
         times.add(bench::seconds(their_calls, theirs), own);
         state.SetIterationTime(own);
@@ -135,7 +135,7 @@ void at_fixed_depth(benchmark::State& state, const Tree& tree, std::size_t quant
     };
     const int calls = bench::calls_per_turn(ours);
     std::vector<double> times;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         times.push_back(bench::seconds(calls, ours));
         state.SetIterationTime(times.back());
     }

@@ -79,7 +79,7 @@ void march(benchmark::State& state, turbines::Turbine turbine, double rpm, solve
     const solvers::IntegrationStatistics before = integrator.statistics();
     const double from = integrator.time();
     bench::Pairs times;  // one second of motion, one evaluation
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         bool reached = false;
         const double marching =
             bench::cpu_time_of([&] { reached = integrator.advance(integrator.time() + 1).reached(); });
@@ -144,7 +144,7 @@ void time_marching_states(benchmark::State& state) {
             [&] { benchmark::DoNotOptimize(run.integrator->advance(run.integrator->time() + 1)); });
     };
     bench::Pairs times;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const double marching = second_of(with);
         times.add(marching, second_of(without));
         state.SetIterationTime(marching);
@@ -173,7 +173,7 @@ void time_marching_samples(benchmark::State& state) {
     const solvers::IntegrationStatistics before = with.integrator->statistics();
     const double from = with.integrator->time();
     bench::Pairs times;
-    for (auto _ : state) {
+    for ([[maybe_unused]] auto _ : state) {
         const auto second_of = [](Run& run) {
             return bench::cpu_time_of(
                 [&] { benchmark::DoNotOptimize(run.integrator->advance(run.integrator->time() + 1)); });
