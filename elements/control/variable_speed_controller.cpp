@@ -8,6 +8,26 @@
 
 namespace cardan {
 
+namespace {
+
+// The rows on either side of a value, and the part of the way from the one to the other; beyond the ends the last one
+// twice.
+template <class Row>
+struct Between {
+    const Row &below, &above;
+    double part;
+};
+template <class Row>
+Between<Row> between(const std::vector<Row>& rows, double value, double Row::*over) {
+    const auto above = std::ranges::lower_bound(rows, value, {}, over);
+    if (above == rows.begin()) return {rows.front(), rows.front(), 0};
+    if (above == rows.end()) return {rows.back(), rows.back(), 0};
+    const Row& below = *(above - 1);
+    return {below, *above, (value - below.*over) / ((*above).*over - below.*over)};
+}
+
+}  // namespace
+
 void VariableSpeedParameters::check() const {
     std::vector positive{std::pair{"period [s]", period},
                          std::pair{"corner frequency [rad/s]", corner_frequency},
@@ -47,11 +67,8 @@ void VariableSpeedParameters::check() const {
 
 double VariableSpeedParameters::least_pitch_at(double speed) const {
     if (least_pitches.empty()) return least_pitch;
-    const auto above = std::ranges::lower_bound(least_pitches, speed, {}, &PitchAtSpeed::speed);
-    if (above == least_pitches.begin()) return above->pitch;
-    const PitchAtSpeed& below = *(above - 1);
-    if (above == least_pitches.end()) return below.pitch;
-    return std::lerp(below.pitch, above->pitch, (speed - below.speed) / (above->speed - below.speed));
+    const Between at = between(least_pitches, speed, &PitchAtSpeed::speed);
+    return std::lerp(at.below.pitch, at.above.pitch, at.part);
 }
 
 VariableSpeedController::VariableSpeedController(VariableSpeedParameters parameters) : own_(std::move(parameters)) {
@@ -70,14 +87,9 @@ double VariableSpeedController::torque(double speed, double pitch) const {
 }
 
 PitchGains VariableSpeedController::gains_at(double pitch) const {
-    const std::vector<PitchGains>& rows = own_.gains;
-    const auto above = std::ranges::lower_bound(rows, pitch, {}, &PitchGains::pitch);
-    if (above == rows.begin()) return rows.front();
-    if (above == rows.end()) return rows.back();
-    const PitchGains& below = *(above - 1);
-    const double part = (pitch - below.pitch) / (above->pitch - below.pitch);
-    return {pitch, std::lerp(below.proportional, above->proportional, part),
-            std::lerp(below.integral, above->integral, part)};
+    const Between at = between(own_.gains, pitch, &PitchGains::pitch);
+    return {pitch, std::lerp(at.below.proportional, at.above.proportional, at.part),
+            std::lerp(at.below.integral, at.above.integral, at.part)};
 }
 
 void VariableSpeedController::begin_integral(double pitch) {
@@ -85,10 +97,9 @@ void VariableSpeedController::begin_integral(double pitch) {
 }
 
 // The sum is that of the error, which the gain of the moment multiplies; with rows of gains, that of the demand.
-double VariableSpeedController::demanded_pitch(double error, double pitch) {
+double VariableSpeedController::demanded_pitch(double error, double pitch, double least) {
     const VariableSpeedParameters& p = own_;
     double& sum = memory_[pitch_integral];
-    const double least = p.least_pitch_at(memory_[filtered_speed]);
     if (!p.gains.empty()) {
         const PitchGains own = gains_at(pitch);
         sum = std::clamp(sum + own.integral * error * p.period, least, p.largest_pitch);
@@ -119,8 +130,9 @@ VariableSpeedController::Demand VariableSpeedController::step(const Measured& no
     memory_[torque_before] = wanted_torque;
 
     // The integral cannot ask for more than the range of the pitch.
+    const double least = p.least_pitch_at(speed);
     const double wanted =
-        std::clamp(demanded_pitch(speed - p.reference_speed, now.pitch), p.least_pitch_at(speed), p.largest_pitch);
+        std::clamp(demanded_pitch(speed - p.reference_speed, now.pitch, least), least, p.largest_pitch);
     const double step = p.largest_pitch_rate * p.period;
     double& pitch = memory_[pitch_before];
     pitch = std::clamp(wanted, pitch - step, pitch + step);

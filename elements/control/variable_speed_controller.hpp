@@ -100,7 +100,7 @@ private:
 
     // The sum of the PI controller, in its limits; begins at a pitch or goes on by an error of the speed.
     void begin_integral(double pitch);
-    double demanded_pitch(double error, double pitch);
+    double demanded_pitch(double error, double pitch, double least);
     PitchGains gains_at(double pitch) const;
 
     VariableSpeedParameters own_;
