@@ -59,9 +59,13 @@ void EnergyShares::add_modes(const BladePart& part, const Linearisation& lin, co
         const std::string family = family_of(modes.shapes.col(i), K, families);
         named.push_back({part.axes.part, family, ++count[family], modes.omega(i) / (2 * pi), true, false});
     }
-    const bool by_rank = first.size() == named.size() && !have_same_names(first, named);
+    std::vector<int> columns(named.size());
+    if (const auto order = component_order(first, named))
+        for (std::size_t c = 0; c < first.size(); ++c) columns[(*order)[c]] = static_cast<int>(c);
+    else
+        for (std::size_t i = 0; i < named.size(); ++i) columns[i] = component_of(block, named[i]);
     for (Eigen::Index i = 0; i < std::ssize(named); ++i) {
-        const int c = by_rank ? static_cast<int>(i) : component_of(block, entry(named, i));
+        const int c = entry(columns, i);
         const Eigen::Index known = weights.cols(), wanted = std::max<Eigen::Index>(known, c + 1);
         weights.conservativeResize(Eigen::NoChange, wanted);
         weights.rightCols(wanted - known).setZero();

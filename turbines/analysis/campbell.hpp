@@ -33,7 +33,7 @@ struct CampbellDiagram : solvers::Campbell {
 /// azimuth, otherwise exact in multi-blade coordinates; two blades or blades that differ: Floquet's. Over the wind the
 /// states are those of operating points in the air, and the air follows the vibrations as the settings say.
 /// @throws InputError for settings out of range, with the field, and for what the machine does not have: a rotor speed,
-/// airfoils, rated power; NumericalError where no steady state is found
+/// airfoils, rated power, a mode up to the frequency; NumericalError where no steady state is found
 CampbellDiagram campbell(const Machine& source, const CampbellSettings& settings = {});
 
 }  // namespace cardan::turbines

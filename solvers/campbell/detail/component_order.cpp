@@ -44,10 +44,6 @@ std::optional<Order> by_frequency(const std::vector<Component>& wanted, const st
 
 }  // namespace
 
-bool have_same_names(const std::vector<Component>& wanted, const std::vector<Component>& there) {
-    return by_name(wanted, there).has_value();
-}
-
 std::optional<Order> component_order(const std::vector<Component>& wanted, const std::vector<Component>& there) {
     if (wanted.size() != there.size()) return std::nullopt;
     const std::optional<Order> order = by_name(wanted, there);

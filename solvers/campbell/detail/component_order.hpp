@@ -9,11 +9,9 @@
 
 namespace cardan::solvers {
 
-/// Is each of the one, by part, family and ordinal, among the other?
-bool have_same_names(const std::vector<Component>& wanted, const std::vector<Component>& there);
-
-/// Place of every component that is wanted among those that are there, by name; where names differ (pitch turns what is
-/// flap and edge of a clamped blade, but not its modes), those of a part follow each other in frequency.
+/// Place of every component that is wanted among those that are there, by part, family and ordinal; where names differ
+/// (pitch turns what is flap and edge of a clamped blade, but not its modes), those of a part follow each other in
+/// frequency.
 /// @return none: a part has not as many there
 std::optional<std::vector<std::size_t>> component_order(const std::vector<Component>& wanted,
                                                         const std::vector<Component>& there);
