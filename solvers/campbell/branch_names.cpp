@@ -35,6 +35,7 @@ public:
           energy_shares_(energy_shares),
           rows_(rows),
           neighbour_(neighbour),
+          whirl_(whirl),
           labels_(points, energy_shares, rows, whirl) {}
 
     /// @param mac  null: modes stay on their curves, HandOver
@@ -72,8 +73,8 @@ private:
     std::string usual_kind(const Branch& branch) const;
     Matrix scores(const std::vector<Branch>& branches) const;
     std::vector<Naming> by_sums(const std::vector<Branch>& branches) const;
-    using Names = std::vector<const Label*>;  // that are certain, by mode; null: none
-    HandOver::Name at_rest(const std::vector<CampbellMode>& modes, const Names& names, int mode) const;
+    std::vector<HandOver::Name> names_at_rest(const std::vector<CampbellMode>& modes) const;
+    void order_pairs(const std::vector<CampbellMode>& modes, std::vector<HandOver::Name>& names) const;
     void hand_over(std::vector<Branch>& branches, std::vector<Naming>& namings, const HandOver::Mac& mac) const;
     const Label* own_label(const Branch& partner) const;
     void continue_names(const std::vector<Branch>& branches, Matrix& score) const;
@@ -89,6 +90,7 @@ private:
     const EnergyShares& energy_shares_;
     const std::vector<std::string>& rows_;
     NeighbourNames* neighbour_;  // may be null
+    bool whirl_;                 // at some speed
     ModeLabels labels_;
 };
 
@@ -152,15 +154,16 @@ std::vector<Naming> BranchNames::by_sums(const std::vector<Branch>& branches) co
 
 void BranchNames::hand_over(std::vector<Branch>& branches, std::vector<Naming>& namings,
                             const HandOver::Mac& mac) const {
-    std::vector<Names> names;
+    std::vector<std::vector<HandOver::Name>> names;
     for (const CampbellPoint& point : points_) {
-        Names& own = names.emplace_back();
-        for (const CampbellMode& mode : point.modes) own.push_back(labels_.certain(point.rotor_speed, mode));
+        if (point.rotor_speed == 0 && whirl_) {
+            names.push_back(names_at_rest(point.modes));
+            continue;
+        }
+        std::vector<HandOver::Name>& own = names.emplace_back();
+        for (const CampbellMode& mode : point.modes) own.push_back({labels_.certain(point.rotor_speed, mode)});
     }
-    const auto by_energy = [&](std::size_t point, int index) -> HandOver::Name {
-        if (points_[point].rotor_speed == 0) return at_rest(points_[point].modes, names[point], index);
-        return {entry(names[point], index)};
-    };
+    const auto by_energy = [&](std::size_t point, int index) { return entry(names[point], index); };
     const auto by_neighbour = [this](std::size_t point, int index) -> HandOver::Name {
         const Branch* const there = neighbour_->certain(point, index);
         return {there ? own_label(*there) : nullptr};
@@ -171,21 +174,45 @@ void BranchNames::hand_over(std::vector<Branch>& branches, std::vector<Naming>& 
         HandOver(points_, by_energy, mac).run(branches, namings, true);
 }
 
-// As the rotor begins to turn the lower of a pair whirls backward, the higher forward.
-HandOver::Name BranchNames::at_rest(const std::vector<CampbellMode>& modes, const Names& names, int mode) const {
-    constexpr double same = 1e-6;
-    const Label* const own = entry(names, mode);
-    if (own == nullptr || own->pattern != RotorPattern::backward) return {own};
-    double other = -1;
-    for (int m = 0; m < static_cast<int>(modes.size()); ++m) {
-        if (m == mode || entry(names, m) != own) continue;
-        if (other >= 0) return {own, true};  // more than two
-        other = entry(modes, m).mode.natural_hz();
+// At standstill every vibration is named after its own energies, whatever it is followed to: which curve of a pair it
+// lies on depends on the next speed, and the names at rest are not to depend on the speeds that are asked for.
+std::vector<HandOver::Name> BranchNames::names_at_rest(const std::vector<CampbellMode>& modes) const {
+    const std::vector<Label>& labels = labels_.all();
+    Matrix score = Matrix::Zero(std::ssize(modes), std::ssize(labels));
+    for (Eigen::Index m = 0; m < score.rows(); ++m) {
+        const CampbellMode& mode = entry(modes, m);
+        if (mode.row >= 0 || mode.mode.is_state_motion()) continue;
+        for (Eigen::Index l = 0; l < score.cols(); ++l) score(m, l) = ModeLabels::part(mode, entry(labels, l));
     }
-    const double hz = entry(modes, mode).mode.natural_hz();
-    if (other < 0 || std::abs(other - hz) <= same * hz) return {own, true};
-    if (hz < other) return {own};
-    return {&*std::ranges::find_if(labels_.all(), [&](const Label& label) { return is_pair(label, *own); })};
+    const std::vector<int> label_of = score.size() > 0 ? assign(score) : std::vector<int>(modes.size(), -1);
+    std::vector<HandOver::Name> names;
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+        const auto row = static_cast<Eigen::Index>(m);
+        const bool own = label_of[m] >= 0 && score(row, label_of[m]) >= least_share;
+        const Label* const label = own ? &entry(labels, label_of[m]) : nullptr;
+        const Label* const sure = labels_.certain(0, modes[m]);
+        names.push_back({label, false, own && sure != nullptr && (sure == label || is_pair(*sure, *label))});
+    }
+    order_pairs(modes, names);
+    return names;
+}
+
+// As the rotor begins to turn the lower of a pair whirls backward, the higher forward.
+void BranchNames::order_pairs(const std::vector<CampbellMode>& modes, std::vector<HandOver::Name>& names) const {
+    constexpr double same = 1e-6;
+    const auto hz = [&](std::size_t mode) { return modes[mode].mode.natural_hz(); };
+    for (std::size_t a = 0; a < names.size(); ++a) {
+        const Label* const backward = names[a].label;
+        if (backward == nullptr || backward->pattern != RotorPattern::backward) continue;
+        const auto other = std::ranges::find_if(
+            names, [&](const HandOver::Name& name) { return name.label && is_pair(*name.label, *backward); });
+        if (other == names.end()) continue;
+        const auto b = static_cast<std::size_t>(other - names.begin());
+        if (std::abs(hz(a) - hz(b)) <= same * hz(b))
+            names[a].or_pair = names[b].or_pair = true;
+        else if (hz(a) > hz(b))
+            std::swap(names[a].label, names[b].label);
+    }
 }
 
 // Label of a branch of the neighbour, whose components may be in another order; null: none here.

@@ -15,7 +15,7 @@ bool HandOver::Wanted::fits(const Naming& naming) const {
 std::vector<HandOver::Wanted> HandOver::wanted(const std::vector<Branch>& branches, std::size_t point) const {
     std::vector<Wanted> all;
     for (std::size_t b = 0; b < branches.size(); ++b)
-        if (const int mode = branches[b].mode[point]; mode >= 0) all.push_back({b, mode, certain_(point, mode)});
+        if (const int mode = branches[b].mode[point]; mode >= 0) all.push_back({b, mode, name_of_(point, mode)});
     return all;
 }
 
@@ -24,7 +24,7 @@ void HandOver::add_missing(std::vector<Branch>& branches, std::vector<Naming>& n
     for (std::size_t i = 0; i < points_.size(); ++i) {
         for (const Wanted& one : wanted(branches, i)) {
             const auto has = [&](const Naming& naming) { return one.fits(naming); };
-            if (one.name.label == nullptr || std::ranges::any_of(namings, has)) continue;
+            if (one.name.label == nullptr || !one.name.certain || std::ranges::any_of(namings, has)) continue;
             Branch& branch = branches.emplace_back();
             branch.mode.assign(points_.size(), -1);
             branch.mac.assign(points_.size(), 0);
@@ -40,15 +40,15 @@ bool HandOver::exchange(std::vector<Branch>& branches, const std::vector<Naming>
         return one.name.label == nullptr || one.fits(entry(namings, one.branch));
     };
     if (std::ranges::all_of(modes, is_there)) return false;
-    // A certain name outweighs two places that are left; what has no place left takes the one that fits it best.
-    constexpr double certain = 4, place = 1, energy = 0.5;
+    // A name outweighs two places that are left; what has no place left takes the one that fits it best.
+    constexpr double named = 4, place = 1, energy = 0.5;
     Matrix score = Matrix::Zero(std::ssize(modes), std::ssize(branches));
     for (Eigen::Index k = 0; k < score.rows(); ++k) {
         const Wanted& one = entry(modes, k);
         const CampbellMode& mode = entry(points_[point].modes, one.mode);
         for (Eigen::Index b = 0; b < score.cols(); ++b) {
             const Naming& naming = entry(namings, b);
-            if (one.fits(naming)) score(k, b) += certain;
+            if (one.fits(naming)) score(k, b) += named;
             if (!naming.another) score(k, b) += energy * ModeLabels::part(mode, naming.label);
         }
         score(k, static_cast<Eigen::Index>(one.branch)) += place;

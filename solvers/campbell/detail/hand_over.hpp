@@ -18,22 +18,23 @@ struct Naming {
 
 /// A branch is followed along its curve. In a sharp veering two curves exchange their characters within less than a
 /// step or over several, and which branch goes on as what would depend on the steps. So a mode whose name is beyond
-/// doubt where it is goes to the branch of this name; what stood there takes its place. Other modes stay on their
-/// curve.
+/// doubt where it is, or which stands still, goes to the branch of this name; what stood there takes its place. Other
+/// modes stay on their curve.
 class HandOver {
 public:
-    /// The label that a mode has beyond doubt, as far as this point goes.
+    /// The label that a mode has, as far as this point goes.
     struct Name {
         const Label* label = nullptr;  ///< null: none
-        bool or_pair = false;          ///< or the other of its pair: nothing whirls at standstill
+        bool or_pair = false;  ///< or the other of its pair, at the same frequency: nothing whirls at standstill
+        bool certain = true;   ///< beyond doubt: there must be a branch of this name
     };
-    using Certain = std::function<Name(std::size_t point, int mode)>;
+    using NameOf = std::function<Name(std::size_t point, int mode)>;
     /// MAC of a mode with that of an earlier point.
     using Mac = std::function<double(std::size_t before, int mode_before, std::size_t point, int mode)>;
 
     /// @param points  kept as a reference
-    HandOver(const std::vector<CampbellPoint>& points, Certain certain, Mac mac)
-        : points_(points), certain_(std::move(certain)), mac_(std::move(mac)) {}
+    HandOver(const std::vector<CampbellPoint>& points, NameOf name_of, Mac mac)
+        : points_(points), name_of_(std::move(name_of)), mac_(std::move(mac)) {}
 
     /// @param branches  with `mode` and `mac` set; those of motions without elastic energy stay as they are
     /// @param namings   of the branches
@@ -53,7 +54,7 @@ private:
     void set_mac(Branch& branch) const;
 
     const std::vector<CampbellPoint>& points_;
-    Certain certain_;
+    NameOf name_of_;
     Mac mac_;
 };
 

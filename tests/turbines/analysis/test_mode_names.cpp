@@ -97,6 +97,24 @@ TEST_CASE("mode names: one that is not marked is the same whatever rotor speeds 
     }
 }
 
+TEST_CASE("mode names: at rest all names and marks are the same whatever rotor speeds follow", "[crosscheck]") {
+    for (const std::string& name : {std::string("wt600"), small_fst}) {
+        const auto first = names_at(over(name, {0, 0.5}), 0);
+        CHECK(first.size() > 10);
+        for (const std::vector<double>& rpm :
+             {std::vector<double>{0, 1}, {0, 5, 10}, {0, 32}, {0, 40}, {0, 8, 16, 24, 32, 40}}) {
+            const auto others = names_at(over(name, rpm), 0);
+            for (const auto& [hz, named] : first) {
+                const Named* const other = near(others, hz);
+                CAPTURE(name, rpm, hz, named.name);
+                REQUIRE(other != nullptr);
+                CHECK(other->name == named.name);
+                CHECK(other->doubtful == named.doubtful);
+            }
+        }
+    }
+}
+
 TEST_CASE("mode names: three quarters of the energy under one name is that name, at every speed of every diagram",
           "[property]") {
     for (const std::string& name : {std::string("wt600"), small_fst})
