@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace cardan {
@@ -116,6 +117,10 @@ void SteadyWind::check() const {
                                       {"vertical speed [m/s]", vertical},
                                       {"height of the ground [m]", ground}})
         if (!std::isfinite(value)) throw InputError("wind", name, value, "finite");
+    for (const auto& [name, value, most] : {std::tuple("exponent of the shear", exponent, 10.0),
+                                            {"direction [rad]", direction, 4 * pi},
+                                            {"upflow [rad]", upflow, pi / 2}})
+        if (std::abs(value) > most) throw InputError("wind", name, value, text(-most, " ... ", most));
     if (shear == Shear::logarithmic && !(roughness > 0 && roughness < reference_height))
         throw InputError("wind", "roughness [m]", roughness,
                          text("0 ... ", reference_height, ", the reference height"));

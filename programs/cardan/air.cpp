@@ -59,7 +59,9 @@ void take_air(turbines::Machine& machine, const AirArguments& arguments, Machine
 turbines::WindSource wind_source(const std::string& given) {
     if (given == "none") return turbines::WindSource::none();
     if (std::filesystem::exists(given)) return std::filesystem::path(given);
-    return number("--wind", given, given, wind_file_format);
+    const double speed = number("--wind", given, given, wind_file_format);
+    require_not_negative("--wind", "value [m/s]", speed);
+    return speed;
 }
 
 }  // namespace cardan::program

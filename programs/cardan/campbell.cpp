@@ -142,8 +142,8 @@ int run(CampbellArguments& a, const CommandLine& command) {
         throw InputError("--pitch-schedule", "value", a.pitch_schedule, "none beside --wind: see --schedule");
     const turbines::CampbellSettings settings = settings_of(a);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "campbell_wind" : "campbell");
-    if (windy) check_outputs(a.out, {"_roots.svg", "_roots.png"}, a.machine.model);
-    check_outputs(a.out, {".h5", ".csv", ".svg", ".png"}, a.machine.model);
+    if (windy) check_outputs(a.out, {"_roots.svg", "_roots.png"}, {a.machine.model});
+    check_outputs(a.out, {".h5", ".csv", ".svg", ".png"}, {a.machine.model, a.air.wind.schedule, a.like});
     turbines::Machine machine = prepared_machine(a.machine);
     if (windy) take_wind(machine, a.air.wind, a.machine);
     stop_at_once();  // until a point is done

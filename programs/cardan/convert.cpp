@@ -72,7 +72,7 @@ int run(ConvertArguments& a, const CommandLine& /*command*/) {
     const bool yaml = turbines::is_yaml(a.to);
     if (!yaml && std::filesystem::path(a.to).extension() != ".csv")
         throw InputError("to", "file", a.to, "one that ends in .yaml (a machine) or .csv (a time history)");
-    check_outputs(a.to, {""}, a.machine.model);
+    check_outputs(a.to, {""}, {a.machine.model});
     if (yaml)
         write_yaml(a);
     else

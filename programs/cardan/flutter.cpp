@@ -229,7 +229,7 @@ void print_limits(const solvers::StabilityLimits& found, const turbines::Machine
 int run(FlutterArguments& a, const CommandLine& command) {
     if (!a.rpm.empty()) static_cast<void>(speed_range(a.rpm));
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "flutter");
-    check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_roots.svg", "_roots.png"}, a.machine.model);
+    check_outputs(a.out, {".h5", ".csv", ".svg", ".png", "_roots.svg", "_roots.png"}, {a.machine.model});
     turbines::Machine machine = prepared_machine(a.machine);
     if (a.rpm.empty()) a.rpm = usual_range(machine);
     const SpeedRange range = speed_range(a.rpm);

@@ -236,8 +236,8 @@ int run(LineariseArguments& a, const CommandLine& command) {
     require_numbers(a);
     const turbines::LinearModelSettings settings = settings_of(a);
     if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "linear_wind" : "linear");
-    check_outputs(a.out, {".h5", ".mat"}, a.machine.model);
-    if (a.lin) check_outputs(a.out, {".1.lin"}, a.machine.model);
+    check_outputs(a.out, {".h5", ".mat"}, {a.machine.model});
+    if (a.lin) check_outputs(a.out, {".1.lin"}, {a.machine.model});
     turbines::Machine machine = prepared_machine(a.machine);
     check_stations(machine, a.machine, a.stations);
     if (windy) take_wind(machine, a.air.wind, a.machine);

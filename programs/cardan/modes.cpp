@@ -92,7 +92,7 @@ int print_parts(const turbines::Machine& machine, const ModesArguments& a) {
 
 int run(ModesArguments& a, const CommandLine& command) {
     if (a.out.empty()) a.out = default_prefix(a.machine.model, "modes");
-    check_outputs(a.out, {".h5", ".csv"}, a.machine.model);
+    check_outputs(a.out, {".h5", ".csv"}, {a.machine.model});
     const turbines::Machine machine = prepared_machine(a.machine);
     if (!machine.description.missing.empty()) return print_parts(machine, a);
     stop_at_once();  // nothing is kept

@@ -135,8 +135,9 @@ int run(SimulateArguments& a, const CommandLine& command) {
     a.machine.gravity = !a.no_gravity;
     if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
     const turbines::SimulationSettings settings = settings_of(a);
-    if (!a.run.resume && !a.list) check_outputs(a.run.out, run_outputs, a.machine.model);
+    if (!a.run.resume && !a.list) check_outputs(a.run.out, run_outputs, {a.machine.model, a.wind});
     turbines::Machine machine = prepared_machine(a.machine);
+    check_stations(machine, a.machine, a.stations);
     if (a.rated_power) machine.operation.rated_power = *a.rated_power * 1e3;
     const bool in_air = a.wind.empty() ? machine.run && machine.run->air : a.wind != "none";
     // Air of the model's own run that it cannot have is the library's to refuse.

@@ -107,8 +107,8 @@ int run(SteadyArguments& a, const CommandLine& command) {
     const std::vector<double> winds = winds_of(a.wind);
     static_cast<void>(stations_of(a.revolution.stations));
     if (a.out.empty()) a.out = default_prefix(a.machine.model, windy ? "wind" : "steady");
-    check_outputs(a.out, {".h5", ".svg", ".png"}, a.machine.model);
-    if (windy) check_outputs(a.out, wind_outputs, a.machine.model);
+    check_outputs(a.out, {".h5", ".svg", ".png"}, {a.machine.model});
+    if (windy) check_outputs(a.out, wind_outputs, {a.machine.model, a.wind.schedule});
     turbines::Machine machine = prepared_machine(a.machine);
     check_stations(machine, a.machine, a.revolution.stations);
     if (windy) {

@@ -49,7 +49,7 @@ inline std::string in_options(std::string text) {
         {"CampbellSettings::like", "--like"},
         {"CampbellSettings::harmonics", "--harmonics"},
         {"CampbellSettings::winds", "--wind"},
-        {"OperationSettings::rated_power", "--rated-power"},
+        {"OperationSettings::rated_power", "--rated-power KW"},
         {"OperationSettings::rated_rotor_speed", "--rated-rpm"},
         {"OperationSettings::min_rotor_speed", "--least-rpm"},
         {"WindRunOptions::winds", "--wind"},

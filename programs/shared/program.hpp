@@ -20,6 +20,7 @@
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace cardan::program {
 
@@ -57,16 +58,18 @@ inline void ask_to_stop(int signal) {
 
 /// Files that cannot be written are noticed before the work, not after it, and what a killed run has left
 /// behind is named and removed.
-/// @param source  what the machine is read from, which is not replaced
+/// @param sources  what is read, the machine's file for one, which is not replaced
 inline void check_outputs(const std::string& prefix, std::initializer_list<const char*> endings,
-                          const std::string& source = {}) {
-    if (std::filesystem::path(prefix).filename().empty())
+                          const std::vector<std::string>& sources = {}) {
+    const std::string name = std::filesystem::path(prefix).filename().string();
+    if (name.empty() || name == "." || name == "..")
         throw InputError("--out", "prefix", prefix, "a path that ends in a file name");
     for (const char* ending : endings) {
         std::error_code none;
-        if (std::filesystem::equivalent(prefix + ending, source, none))
-            throw InputError("output", "file", prefix + ending,
-                             "another one than the machine's, which it would replace");
+        for (const std::string& source : sources)
+            if (std::filesystem::equivalent(prefix + ending, source, none))
+                throw InputError("output", "file", prefix + ending,
+                                 "another one than what is read, which it would replace");
         const PendingFile file(prefix + ending);
         if (file.left_over())
             std::cerr << "note: " << file.partial() << " was left behind by a run that was killed; it is removed\n";

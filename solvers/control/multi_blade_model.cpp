@@ -191,16 +191,8 @@ void check(const LinearModel& model, const RotorMap& rotor) {
     if (static_cast<std::size_t>(model.blades) != rotor.blades.size())
         throw InputError(in_multi_blade_model, "number of blades", model.blades,
                          text(rotor.blades.size(), ", as the rotor has"));
-    if (model.samples.empty() || (model.rotor_speed != 0 && model.samples.size() < 3))
-        throw InputError(in_multi_blade_model, "number of azimuths", model.samples.size(),
-                         "3 or more of a rotor that turns");
-    // The transformed matrices repeat after 1/B of a revolution.
-    const auto different =
-        static_cast<int>(model.samples.size()) / std::gcd(static_cast<int>(model.samples.size()), model.blades);
-    if (model.rotor_speed != 0 && model.blades > 2 && different < 3)
-        throw InputError(in_multi_blade_model, "number of azimuths", model.samples.size(),
-                         text("one at which the rotor of ", model.blades, " blades stands in 3 different ways (",
-                              model.blades + 1, ", ", 3 * model.blades, ")"));
+    if (model.samples.empty()) throw InputError(in_multi_blade_model, "number of azimuths", 0, "1 or more");
+    if (model.rotor_speed != 0) check_azimuths(model.samples.size(), model.blades);
 }
 
 double remainder(const Matrix& difference, const Matrix& mean) {
@@ -275,6 +267,17 @@ MultiBladeModel multi_blade(const LinearModel& model, const RotorMap& rotor) {
         result.D_remainder = std::max(result.D_remainder, remainder_by_row(z.D - result.D, result.D, result.outputs));
     }
     return result;
+}
+
+// The transformed matrices repeat after 1/B of a revolution.
+void check_azimuths(std::size_t azimuths, int blades) {
+    if (azimuths < 3)
+        throw InputError(in_multi_blade_model, "number of azimuths", azimuths, "3 or more of a rotor that turns");
+    const int count = static_cast<int>(azimuths), different = count / std::gcd(count, blades);
+    if (blades > 2 && different < 3)
+        throw InputError(in_multi_blade_model, "number of azimuths", azimuths,
+                         text("one at which the rotor of ", blades, " blades stands in 3 different ways (", blades + 1,
+                              ", ", 3 * blades, ")"));
 }
 
 }  // namespace cardan::solvers

@@ -36,6 +36,10 @@ struct MultiBladeModel : ConstantModel {
 /// would not show
 MultiBladeModel multi_blade(const LinearModel& model, const RotorMap& rotor);
 
+/// Are so many azimuths of a revolution enough for a turning rotor?
+/// @throws InputError unless the rotor stands in three different ways at them
+void check_azimuths(std::size_t azimuths, int blades);
+
 /// x = V z at an azimuth, for the states of multi_blade(): initial values for simulations.
 Matrix multi_blade_states(const LinearModel& model, const RotorMap& rotor, double psi);
 

@@ -36,7 +36,7 @@ add_example_test(example_turbine_linear_no_machine cardan 2 "model is required" 
 add_example_test(example_turbine_linear_unknown cardan 1 "machine: name = wt60; allowed: wt600, teetered" linearise wt60)
 add_example_test(example_turbine_linear_unknown_option cardan 2 "--nonsense" linearise wt600 --nonsense)
 add_example_test(example_turbine_linear_rpm cardan 1 "--rpm: value = -1; allowed: >= 0" linearise wt600 --rpm=-1)
-add_example_test(example_turbine_linear_azimuths cardan 1 "number of azimuths = 2; allowed: >= 3" linearise teetered --azimuths 2
+add_example_test(example_turbine_linear_azimuths cardan 1 "number of azimuths = 2; allowed: 3 or more" linearise teetered --azimuths 2
                  --out example_turbine_linear_azimuths)
 add_example_test(example_turbine_linear_error cardan 1 "--error: value .%. = nan; allowed: finite and > 0" linearise wt600 --error nan)
 add_example_test(example_turbine_linear_order cardan 1 "order = 1000; allowed: 0 ... [0-9]+" linearise wt600 --order 1000 ${coarse} --azimuths 4

@@ -61,7 +61,7 @@ add_example_test(usage_convert_unwritable cardan 1 "the folder 'no/such' does no
 file(WRITE ${test_output_dir}/usage_schedule.csv "wind[m/s],rotor_speed[rpm],pitch[deg]\n7,10,0\n9,11,2\n")
 add_example_test(usage_schedule_ends cardan 1 "schedule of operation: wind speed .m/s. = 12; allowed: 7 ... 9" steady nrel5mw --wind 12 --schedule
                  usage_schedule.csv)
-add_example_test(usage_least_rpm cardan 1 "--least-rpm: value .rpm. = 20; allowed: at most 12.1" campbell nrel5mw --wind 8 --least-rpm 20)
+add_example_test(usage_least_rpm cardan 1 "--least-rpm: least speed of the rotor .rpm. = 20; allowed: at most 12.1" campbell nrel5mw --wind 8 --least-rpm 20)
 
 # What is in a model's files and not in the machine is counted, and listed on demand; what the model asks for and does
 # not get stands behind the result. Blades with files of their own that are alike are told of once.
@@ -87,6 +87,9 @@ add_example_test(usage_notes_alike cardan 0 "small_Blade.dat:[0-9]+: FlStTunr.2.
 add_example_test(usage_lin cardan 0 "files: usage_lin.h5, .mat, usage_lin.1.lin ... 4 files" linearise wt600 --rpm 27 --azimuths 4 --order 4 ${few} --lin
                  --out usage_lin)
 add_example_test(usage_no_lin cardan 0 "files: usage_no_lin.h5, .mat\n" linearise wt600 --rpm 27 --azimuths 4 --order 4 ${few} --out usage_no_lin)
+
+add_example_test(usage_few_azimuths cardan 1 "number of azimuths = 6; allowed: one at which the rotor of 3 blades stands in 3 different ways .4, 9." linearise
+                 nrel5mw --azimuths 6)
 
 # Several results in one picture.
 add_example_test(usage_plot_histories cardan 0 "svg: 1 channel in 1 panel\n  first: rotor speed: .*\n  second: rotor speed: " plot first.csv second.csv
@@ -117,12 +120,18 @@ add_refusal(empty_out 2 "--out=: followed by an empty word" modes --out=)
 add_example_test(usage_fast_rotor cardan 1 "at 1e[+]06 rpm: tip speed .m/s. = 2[.0-9]+e[+]06; allowed: at most 1000" campbell wt600
                  ${few} --rpm 1e6)
 add_example_test(usage_many_turns cardan 1 "pitch .deg. = 1e[+]09; allowed: at most a turn" simulate wt600 --pitch 1e9)
+add_refusal(simulate_wind 1 "--wind: value .m/s. = -1; allowed: finite and >= 0" simulate --wind=-1)
+add_refusal(simulate_duration 1 "--duration: steps of the output = [0-9.e+]+; allowed: at most 100000000" simulate --duration 1e300)
+add_refusal(simulate_out 1 "--out: prefix = [.]; allowed: a path that ends in a file name" simulate --out .)
+add_example_test(usage_simulate_stations cardan 1 "blade" simulate wt600 --blade-stations -1)
+add_example_test(usage_rated_power_unit cardan 1 "--rated-power KW: value .kW. = 1.5e[+]07; allowed: at most [0-9]+, all that the rotor can take" steady
+                 nrel5mw --wind 8 --rated-power 15e6)
 add_example_test(usage_no_tolerance cardan 1 "--tolerance: value = 1e[+]10; allowed: > 0, at most 0.1" simulate wt600 --tolerance 1e10)
 add_example_test(usage_long_step cardan 1 "--step: value .s. = 5; allowed: at most the duration, 1 s" simulate wt600 ${few} --step 5
                  --duration 1)
 # A result is a machine as well; it is not replaced by what is computed from it.
 add_example_test(usage_own_input_made cardan 0 "files" modes wt600 ${few} --out usage_own_input)
-add_example_test(usage_own_input cardan 1 "file = usage_own_input.h5; allowed: another one than the machine's" campbell usage_own_input.h5
+add_example_test(usage_own_input cardan 1 "file = usage_own_input.h5; allowed: another one than what is read" campbell usage_own_input.h5
                  --out usage_own_input)
 set_tests_properties(usage_own_input_made PROPERTIES FIXTURES_SETUP usage_own_input)
 set_tests_properties(usage_own_input PROPERTIES FIXTURES_REQUIRED usage_own_input)

@@ -14,7 +14,7 @@ foreach(command IN ITEMS campbell steady linearise simulate)
     add_example_test(example_windio_${command} cardan 1 "cardan ${command}: fictitious machine without masses: ${lacks}" ${command} ${bare})
 endforeach()
 add_example_test(example_windio_convert cardan 1 "${lacks}" convert ${bare} example_windio.yaml)
-add_example_test(example_windio_no_power cardan 1 "--rated-power: value = none, and the model names none; allowed: power of the air" steady ${bare}
+add_example_test(example_windio_no_power cardan 1 "--rated-power KW: value = none, and the model names none; allowed: power of the air.*--schedule" steady ${bare}
                  ${masses} --set assembly.rated_power=0 --wind 8 ${few})
 add_example_test(example_windio_no_speed cardan 1 "--rated-rpm: value = none, and the model names none; allowed: speed of the rotor" steady
                  ${bare} ${masses} --set control.torque.VS_maxspd=0 --set control.supervisory.maxTS=0 --wind 8 ${few})

@@ -1,6 +1,7 @@
 #include "turbines/analysis/linear_model.hpp"
 
 #include "mbs/base/error.hpp"
+#include "solvers/control/multi_blade_model.hpp"
 #include "solvers/linear/problem_size.hpp"
 #include "turbines/analysis/detail/linear_forms.hpp"
 #include "turbines/analysis/linear_signals.hpp"
@@ -24,7 +25,8 @@ void check(const LinearModelSettings& s) {
     if (s.max_frequency_hz)
         require_positive("LinearModelSettings::max_frequency_hz", "value [Hz]", *s.max_frequency_hz);
     require_positive("LinearModelSettings::error", "value", s.error);
-    if (s.azimuths > 720) throw InputError("LinearModelSettings::azimuths", "value", s.azimuths, "at most 720");
+    if (s.azimuths < 1 || s.azimuths > 720)
+        throw InputError("LinearModelSettings::azimuths", "value", s.azimuths, "1 ... 720");
     if (s.harmonics && (*s.harmonics < 1 || *s.harmonics > 200))
         throw InputError("LinearModelSettings::harmonics", "value", *s.harmonics, "1 ... 200");
     if (s.wind && s.rotor_speed)
@@ -171,6 +173,9 @@ MachineLinearModel linear_model(const Machine& source, const LinearModelSettings
     if (!s.harmonics) s.harmonics = s.wind ? harmonics_in_wind : harmonics_without_wind;
     const Machine machine = with_settings(source, s.machine, s.report);
     s.machine.foundation.reset();  // it is the machine's now
+    if (s.wind || s.rotor_speed.value_or(machine.operation.rotor_speed) != 0)
+        solvers::check_azimuths(static_cast<std::size_t>(s.azimuths),
+                                machine.description.own_blades.empty() ? machine.description.blades : 1);
     if (!s.max_frequency_hz)
         s.max_frequency_hz = usual_frequency(machine.description, assembly_options(machine, s.machine, s.gravity));
     MachineLinearModel linear =

@@ -82,6 +82,7 @@ void Simulation::Parts::set_machine(const Machine& source) {
     check(settings);
     take_run(source, settings, report());
     machine = with_settings(source, settings.machine, report());
+    if (settings.machine.damping) note_undamped(machine, report());
     settings.controller = checked(settings.controller, machine, report());
     if (!settings.wind->is_none()) static_cast<void>(machine.require_air());
     if (settings.controller.acts()) make_pitch_drives(settings.controller, machine.description);

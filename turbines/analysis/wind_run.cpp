@@ -30,6 +30,17 @@ bool sets_law(const OperationSettings& own) {
     return own.tip_speed_ratio || own.rated_power || own.rated_rotor_speed || own.min_rotor_speed;
 }
 
+// In another unit it is more than there is in any wind that blades turn in.
+void require_power(double rated_power, const TurbineDescription& d) {
+    constexpr double wind = 50, density = 1.225, betz = 16.0 / 27;  // m/s, kg/m^3
+    const double radius = d.hub.radius + d.blade.line.length,
+                 most = betz * density / 2 * pi * radius * radius * wind * wind * wind;
+    if (rated_power > most)
+        throw InputError(
+            "OperationSettings::rated_power", "value [kW]", rounded(rated_power / 1e3),
+            text("at most ", rounded(most / 1e3), ", all that the rotor can take from a wind of ", wind, " m/s"));
+}
+
 // What the settings say, else the controller of the machine.
 VariableSpeed law_of(const Machine& machine, const WindRunOptions& options, const Aerodynamics& air, bool own_pitch) {
     const OperationSettings& own = options.operation;
@@ -42,17 +53,20 @@ VariableSpeed law_of(const Machine& machine, const WindRunOptions& options, cons
     if (!own_pitch) law.least_pitch.clear();
     if (law.rated_power == 0)
         throw InputError("OperationSettings::rated_power", "value", "none, and the model names none",
-                         "power of the air on the rotor at rated wind; or a schedule of the machine");
+                         "power of the air on the rotor at rated wind; or MachineOperation::schedule");
+    require_power(law.rated_power, d);
     if (own.tip_speed_ratio)
         law.tip_speed_ratio = *own.tip_speed_ratio;
     else if (law.tip_speed_ratio == 0)
         law.tip_speed_ratio = best_tip_speed_ratio(air.blade, d.blades, d.blade.cone, law.fine_pitch, air.options);
     if (!(law.rated_speed > 0))
         throw InputError("OperationSettings::rated_rotor_speed", "value", "none, and the model names none",
-                         "speed of the rotor from rated wind on; or a schedule of the machine");
+                         "speed of the rotor from rated wind on; or MachineOperation::schedule");
     if (law.least_speed > law.rated_speed)
-        throw InputError("OperationSettings::min_rotor_speed", "value [rpm]", law.least_speed * units::to_rpm,
-                         text("at most ", rounded(law.rated_speed * units::to_rpm), ", the rated one"));
+        throw InputError(own.min_rotor_speed ? "OperationSettings::min_rotor_speed" : machine.operation.source,
+                         "least speed of the rotor [rpm]", rounded(law.least_speed * units::to_rpm),
+                         text("at most ", rounded(law.rated_speed * units::to_rpm), ", the rated one",
+                              own.min_rotor_speed ? "" : "; OperationSettings::min_rotor_speed gives another"));
     law.check();
     take(options.report, in_words(law, machine.operation.source));
     return law;

@@ -56,6 +56,12 @@ void add_air(Machine& machine, const Read& read) {
     }
 }
 
+// Of the first blade's structure along the pitch axis, from its root, m.
+double blade_end(const TurbineDescription& machine) {
+    const BeamLine& line = machine.blade.line;
+    return line.pose(line.length).p.x();
+}
+
 // None: the model has no file of it.
 std::optional<Aerodynamics> openfast_air(const std::filesystem::path& path, Machine& machine) {
     OpenFastFile main = OpenFastFile::read(path);
@@ -64,7 +70,8 @@ std::optional<Aerodynamics> openfast_air(const std::filesystem::path& path, Mach
     site.viscosity = main.number_or_default("KinVisc", site.viscosity);
     const char* const keyword = main.has("AeroFile") ? "AeroFile" : "ADFile";  // of FAST 7
     if (!main.has(keyword)) return std::nullopt;
-    return air_of(read_aerodyn(main.path(keyword), machine.description.hub.radius, site.density, site.viscosity));
+    const TurbineDescription& d = machine.description;
+    return air_of(read_aerodyn(main.path(keyword), d.hub.radius, site.density, site.viscosity, blade_end(d)));
 }
 
 Machine read_file(const std::filesystem::path& path, const std::vector<ModelAddition>& additions) {
@@ -114,7 +121,8 @@ Machine read_machine(const std::string& machine, const std::vector<ModelAddition
 Aerodynamics read_air(const std::filesystem::path& path, const Machine& machine) {
     const double hub_radius = machine.description.hub.radius;
     if (is_yaml(path)) return air_of(read_windio_air(path, hub_radius));
-    return air_of(read_aerodyn(path, hub_radius, machine.site.density, machine.site.viscosity));
+    return air_of(
+        read_aerodyn(path, hub_radius, machine.site.density, machine.site.viscosity, blade_end(machine.description)));
 }
 
 std::vector<Operation> read_schedule(const std::filesystem::path& path) {

@@ -16,8 +16,22 @@ namespace cardan::turbines {
 
 namespace {
 
-AeroBlade read_blade(const std::filesystem::path& path, double hub_radius, std::vector<Polar> polars,
-                     std::string& source) {
+// Of the structure; it may be infinite.
+void check_span(const OpenFastTable& t, double blade_end, std::vector<FileNote>& notes) {
+    constexpr double rounding = 1e-3, shorter = 0.01;  // of the length
+    const std::size_t last = t.rows() - 1;
+    const double span = t.column("BlSpn")[last];
+    if (span > (1 + rounding) * blade_end)
+        t.fail(last,
+               text("BlSpn = ", span, "; allowed: up to the end of the structure of the blade, ", blade_end, " m"));
+    if (std::isfinite(blade_end) && span < (1 - shorter) * blade_end)
+        notes.push_back({t.file, t.lines[last], "BlSpn", text(span),
+                         text("no air acts beyond: the structure of the blade ends at ", blade_end, " m"),
+                         FileNote::Kind::left_out});
+}
+
+AeroBlade read_blade(const std::filesystem::path& path, double hub_radius, double blade_end, std::vector<Polar> polars,
+                     AeroDynFile& out) {
     OpenFastFile file = OpenFastFile::read(path);
     const OpenFastTable t = file.table("BlSpn", static_cast<std::size_t>(file.integer("NumBlNds", 2, 100000)));
     AeroBlade blade;
@@ -32,10 +46,13 @@ AeroBlade read_blade(const std::filesystem::path& path, double hub_radius, std::
         blade.prebend.push_back(t.column("BlCrvAC")[i]);
         blade.sweep.push_back(t.column("BlSwpAC")[i]);
         blade.profile.push_back(static_cast<std::size_t>(id) - 1);
+        if (const double twist = t.column("BlTwist")[i]; std::abs(twist) > 180)
+            t.fail(i, text("BlTwist = ", twist, "; allowed: -180 ... 180 degrees"));
         if (!(blade.chord.back() > 0)) t.fail(i, text("BlChord = ", blade.chord.back(), "; allowed: > 0"));
         if (i > 0 && !(blade.position[i] > blade.position[i - 1])) t.fail(i, "BlSpn; allowed: ascending");
     }
-    source += text("\n# ", path.string(), "\n", file.text());
+    check_span(t, blade_end, out.notes);
+    out.source += text("\n# ", path.string(), "\n", file.text());
     return blade;
 }
 
@@ -206,7 +223,8 @@ const std::vector<KeywordGroup>& ignored_by_aerodyn() {
 
 }  // namespace
 
-AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density, double viscosity) {
+AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density, double viscosity,
+                         double blade_end) {
     OpenFastFile file = OpenFastFile::read(path);
     if (is_aerodyn14(file)) return read_aerodyn14(file, density, viscosity);
     if (!file.has("NumAFfiles"))
@@ -231,7 +249,7 @@ AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, d
     const auto blade = [](int k) { return text("ADBlFile(", k, ")"); };
     out.source = text("# ", path.string(), "\n", file.text());
     out.blade = file.follow(
-        blade(1), [&] { return read_blade(file.path(blade(1)), hub_radius, polars_of(out.profiles), out.source); });
+        blade(1), [&] { return read_blade(file.path(blade(1)), hub_radius, blade_end, polars_of(out.profiles), out); });
     out.blade.viscosity = kinematic;
     keep_steady(file, out);
     for (int k = 2; k <= 3; ++k)

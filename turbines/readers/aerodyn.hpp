@@ -8,6 +8,7 @@
 #include "turbines/readers/turbine_file.hpp"
 
 #include <filesystem>
+#include <limits>
 
 namespace cardan::turbines {
 
@@ -38,8 +39,11 @@ struct AeroDynFile {
 /// @param hub_radius  places of the sections are given from the blade's root, m
 /// @param density     where the file says "default", kg/m^3
 /// @param viscosity   likewise, kinematic, m^2/s
+/// @param blade_end   of the structure along the pitch axis, from the root, m: sections beyond it are refused, shorter
+/// blades noted. Infinite: not known
 /// @throws ParseError, FileError; ParseError with file and line also for polars that are not sorted
 AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, double density = 1.225,
-                         double viscosity = standard_viscosity);
+                         double viscosity = standard_viscosity,
+                         double blade_end = std::numeric_limits<double>::infinity());
 
 }  // namespace cardan::turbines

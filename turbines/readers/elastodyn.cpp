@@ -157,7 +157,10 @@ private:
         t.high_speed_shaft = rigid_joint;
         t.main_shaft = {not_negative("DTTorSpr"), not_negative("DTTorDmp")};
         if (file_.flag_or("GBRevers", false)) file_.note("GBRevers", "the generator turns as the rotor does here");
-        if (!file_.flag("DrTrDOF")) t.main_shaft = rigid_joint;
+        if (!file_.flag("DrTrDOF"))
+            t.main_shaft = rigid_joint;
+        else
+            positive("DTTorSpr");
         if (!file_.flag("GenDOF")) t.spin = CoordinateRole::driven;
         file_.left_out_unless("GBoxEff", 100, "losses of the gearbox: not part of the model");
     }

@@ -6,6 +6,8 @@
 #include "turbines/readers/elastodyn.hpp"
 #include "turbines/readers/servodyn.hpp"
 
+#include <cmath>
+
 namespace cardan::turbines {
 
 namespace {
@@ -57,7 +59,7 @@ std::string missing_foundation(OpenFastFile& main, const std::string& of_elastod
 }
 
 // What the main file runs; how it starts is ElastoDyn's to say.
-void set_run(OpenFastFile& main, ModelRun& run) {
+void set_run(OpenFastFile& main, ModelRun& run, std::vector<FileNote>& notes) {
     const auto absolute = [](const std::filesystem::path& path) {
         return std::filesystem::absolute(path).lexically_normal().string();
     };
@@ -68,6 +70,9 @@ void set_run(OpenFastFile& main, ModelRun& run) {
         main.note("TMax", "not one number: without it a run lasts as long as it is told");
     }
     run.air = main.number_or("CompAero", 0) != 0;
+    if (!main.has("CompAero") && main.has("AeroFile"))
+        notes.push_back(
+            {main.name(), 0, "CompAero", "", "not in the file: a run has no air", FileNote::Kind::left_out});
     if (run.air && main.number_or("CompInflow", 0) != 0) run.wind = absolute(main.path("InflowFile"));
     run.controlled = main.number("CompServo") != 0;
 }
@@ -79,10 +84,21 @@ bool is_possible(const TurbineFile& out, double rotor_speed) {
     return rotor_speed * (d.hub.radius + d.blade.line.length) < sound;
 }
 
+// Two files have the gear ratio: the controller reckons with its own, the machine turns with the other.
+void note_gears(TurbineFile& out) {
+    constexpr double rounding = 0.01;
+    const double gears = out.description.drive_train.gear_ratio, other = out.operation.gear_ratio;
+    if (other == 0 || std::abs(other - gears) <= rounding * gears) return;
+    out.notes.push_back({out.operation.source, 0, "WE_GearboxRatio", text(other),
+                         text("GBRatio of the machine is ", gears, ": speeds of the rotor follow from that one"),
+                         FileNote::Kind::left_out});
+}
+
 // The controller knows how the blades stand in operation; ElastoDyn, how they start.
 void set_operation(TurbineFile& out, const ServoDyn& servo) {
     const double gears = out.description.drive_train.gear_ratio, speed = servo.rated_generator_speed / gears;
     out.operation = servo.operation;
+    note_gears(out);
     if (speed > 0 && is_possible(out, speed)) {
         out.rotor_speed = out.description.rotor_speed = speed;
         out.rotor_speed_source = servo.speed_source;
@@ -139,7 +155,7 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
     if (kind == 2) read_blades(main, elastodyn, context);
     TurbineFile out = main.follow("EDFile", [&] { return read_elastodyn(elastodyn, context); });
     out.description.name = main.machine_name();
-    set_run(main, *out.run);
+    set_run(main, *out.run, out.notes);
     std::string& foundation = out.description.missing_foundation.name;
     foundation = missing_foundation(main, foundation);
     for (const char* keyword : {"CompHydro", "CompSub", "CompMooring", "CompIce"})

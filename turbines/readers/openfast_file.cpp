@@ -238,7 +238,8 @@ bool OpenFastFile::is_number(std::string_view keyword, double value) const {
 int OpenFastFile::integer(std::string_view keyword, int least, int most) {
     const double value = number(keyword);
     if (value != std::round(value) || value < least || value > most)
-        fail(keyword, cardan::text(keyword, " = ", value, "; allowed: ", least, " ... ", most));
+        fail(keyword, cardan::text(keyword, " = ", value, "; allowed: ",
+                                   value != std::round(value) ? "a whole number, " : "", least, " ... ", most));
     return static_cast<int>(value);
 }
 

@@ -64,6 +64,7 @@ struct FileOperation {
     double rated_power = 0;  ///< of the rotor, W: that on the generator's shaft, losses of a gearbox left out
     double least_speed = 0;  ///< of the rotor, rad/s
     double tip_speed_ratio = 0;
+    double gear_ratio = 0;  ///< that the file counts on
     std::vector<PitchAtWind> least_pitch = {};
     std::string source = {};  ///< name of the file
 };

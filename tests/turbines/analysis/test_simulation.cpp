@@ -8,6 +8,7 @@
 #include "tests/support/files.hpp"
 #include "tests/support/refusal.hpp"
 #include "turbines/analysis/in_unit.hpp"
+#include "turbines/analysis/linear_model.hpp"
 #include "turbines/analysis/simulation.hpp"
 #include "turbines/machine/read_machine.hpp"
 
@@ -154,6 +155,19 @@ TEST_CASE("simulation: a run that is cancelled keeps what it has", "[property]")
     CHECK_FALSE(part.complete);
     CHECK(!part.history.time.empty());
     CHECK(part.history.time.back() < 50);
+}
+
+TEST_CASE("simulation: the search for its start, and for a state to linearise about, can be cancelled", "[property]") {
+    SimulationSettings options{.machine = coarse()};
+    int asked = 0;
+    options.cancelled = [&] { return ++asked > 10; };
+    CHECK_THROWS_WITH(Simulation(nrel5mw(), options), Catch::Contains("it was cancelled"));
+    CHECK(asked < 20);
+    asked = 0;
+    LinearModelSettings about{.machine = coarse(), .gravity = true};
+    about.cancelled = options.cancelled;
+    CHECK_THROWS_WITH(linear_model(nrel5mw(), about), Catch::Contains("it was cancelled"));
+    CHECK(asked < 20);
 }
 
 // What is printed for people must give back the same value.

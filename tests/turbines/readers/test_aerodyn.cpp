@@ -202,6 +202,8 @@ TEST_CASE("aerodyn: bad files are refused with file and line", "[validation]") {
     check_error(with("blade.dat", "1.2 1\n", "1.2 3\n"), {"blade.dat:8", "BlAFID = 3; allowed: 1 ... 2"});
     check_error(with("blade.dat", "40.0 -1.5", "-40.0 -1.5"), {"blade.dat:8", "BlSpn", "ascending"});
     check_error(with("blade.dat", "1.2 1\n", "0 1\n"), {"blade.dat:8", "BlChord = 0; allowed: > 0"});
+    check_error(with("blade.dat", " 0.5 1.2 1\n", " 500 1.2 1\n"),
+                {"blade.dat:8", "BlTwist = 500; allowed: -180 ... 180 degrees"});
     check_error(with("main.dat", "2 NumAFfiles", "3 NumAFfiles"), {"main.dat", "3 names of files expected, found 2"});
     check_error(with("main.dat", "polar_2.dat", "none.dat"), {"main.dat", "AFNames", "none.dat"});
     check_error(with("main.dat", "1 TwrPotent", "3 TwrPotent"), {"main.dat", "TwrPotent = 3; allowed: 0 ... 2"});
@@ -235,6 +237,28 @@ TEST_CASE("aerodyn: rows of a polar behind those that are announced are told", "
     CHECK(!test::has_note(model.read().notes, "NumAlf", "not read"));
     model.replace("polar_1.dat", "4 NumAlf", "3 NumAlf");
     CHECK(test::has_note(model.read().notes, "NumAlf", "rows behind so many are not read"));
+}
+
+TEST_CASE("aerodyn: sections beyond the structure of the blade are refused, where they end before it is noted",
+          "[property]") {
+    const Model model(newer);  // up to 40 m
+    const auto read = [&](double end) { return read_aerodyn(model / "main.dat", 1.5, 1.2, 1.5e-5, end); };
+    CHECK(!test::has_note(read(40.2).notes, "BlSpn", ""));
+    CHECK(!test::has_note(model.read().notes, "BlSpn", ""));
+    CHECK(test::has_note(read(42).notes, "BlSpn", "no air acts beyond"));
+    CHECK_NOTHROW(read(39.99));
+    check_error([&] { static_cast<void>(read(39)); }, {"blade.dat:8", "BlSpn = 40; allowed: up to the end", "39 m"});
+}
+
+TEST_CASE("aerodyn: polars that drive themselves, or jump at 360 deg, are noted", "[property]") {
+    const Model model(newer);
+    CHECK(!test::has_note(model.read().notes, "drag", ""));
+    model.replace("polar_1.dat", "-10 -0.5 0.02", "-10 -0.5 -0.02");
+    CHECK(test::has_note(model.read().notes, "drag", "drives itself"));
+    model.write("polar_1.dat", "! a\n! b\n3 NumAlf\n0 0.3 0.01 0\n180 0 0.1 0\n360 0.4 0.01 0\n");
+    CHECK(test::has_note(model.read().notes, "angles of attack", "the last row differs from that at 0 deg"));
+    model.write("polar_1.dat", "! a\n! b\n3 NumAlf\n0 0.3 0.01 0\n180 0 0.1 0\n360 0.3 0.01 0\n");
+    CHECK(!test::has_note(model.read().notes, "angles of attack", "differs"));
 }
 
 TEST_CASE("aerodyn: polars that do not reach around the circle keep the values of their ends, as in AeroDyn",

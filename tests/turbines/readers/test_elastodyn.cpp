@@ -335,7 +335,10 @@ TEST_CASE("openfast: the main file leads to the others, and ServoDyn's spring ho
     CHECK(test::has_note(file.notes, "AbortLevel", "without meaning"));
     CHECK(test::has_note(file.notes, "YCMode", "control"));
     CHECK(file.controller.generator_efficiency == Approx(0.95).epsilon(1e-15));
+    CHECK(!test::has_note(file.notes, "CompAero", "not in the file"));
     const test::ModelFolder model("openfast");
+    model.replace("small.fst", "             0   CompAero     - (switch)\n", "");
+    CHECK(test::has_note(read_openfast(model / "small.fst").notes, "CompAero", "a run has no air"));
     std::filesystem::remove(model / "small_ServoDyn.dat");
     const TurbineFile without = read_openfast(model / "small.fst");
     CHECK(without.description.yaw.rotation.is_rigid());
@@ -359,6 +362,8 @@ TEST_CASE("elastodyn: numbers that do not describe a machine are refused with th
     CHECK_THAT(main("   1200   HubMass", "  -1200   HubMass"), Contains("HubMass = -1200; allowed: >= 0"));
     CHECK_THAT(main("     25   GBRatio", "      0   GBRatio"), Contains("GBRatio = 0; allowed: > 0"));
     CHECK_THAT(main("      3   NumBl", "      4   NumBl"), Contains("NumBl = 4; allowed: 1 ... 3"));
+    CHECK_THAT(main("      3   NumBl", "    2.5   NumBl"), Contains("NumBl = 2.5; allowed: a whole number, 1 ... 3"));
+    CHECK_THAT(main("5.0E+06   DTTorSpr", "0.0E+06   DTTorSpr"), Contains("DTTorSpr = 0; allowed: > 0"));
     CHECK_THAT(main("   -4.0   ShftTilt", " -400.0   ShftTilt"),
                Contains("ShftTilt = -400; allowed: -45 ... 45 degrees"));
     CHECK_THAT(main("small_Blade.dat", "no_such.dat"), Contains("small_ElastoDyn.dat:96: BldFile(1): "));

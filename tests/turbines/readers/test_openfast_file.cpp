@@ -68,7 +68,7 @@ TEST_CASE("openfast file: errors give file, line and what was expected", "[prope
     CHECK_THAT(message(" yes Mass\n", [](OpenFastFile& f) { (void)f.flag("Mass"); }),
                Contains("folder/x.dat:3:2: Mass: 'yes' is neither True nor False"));
     CHECK_THAT(message(" 2.5 Mass\n", [](OpenFastFile& f) { (void)f.integer("Mass", 1, 3); }),
-               Contains("Mass = 2.5; allowed: 1 ... 3"));
+               Contains("Mass = 2.5; allowed: a whole number, 1 ... 3"));
     CHECK_THAT(message(" \"\" Mass\n", [](OpenFastFile& f) { (void)f.path("Mass"); }), Contains("is empty"));
     CHECK_THAT(message_of([] { (void)OpenFastFile::parse("one line", "y"); }), Contains("y:1: an OpenFAST input file"));
     CHECK_THAT(message_of([] { (void)OpenFastFile::read("no/such.dat"); }),

@@ -147,7 +147,7 @@ TEST_CASE("servodyn: what of a ROSCO controller's file is not whole is refused w
     CHECK_THAT(file.message(winds + "0.05 0.03 ! PS_BldPitchMin\n"), Contains("2 numbers for 3 wind speeds"));
     CHECK_THAT(file.message("7 9 8 ! PS_WindSpeeds\n" + pitch),
                Contains("PS_WindSpeeds: 8 m/s after 9; allowed: ascending"));
-    CHECK_THAT(file.message(count + pitch), Contains("DISCON.IN:1: no line with the keyword PS_WindSpeeds"));
+    CHECK_THAT(file.message(count + pitch), Contains("DISCON.IN:9: no line with the keyword PS_WindSpeeds"));
     CHECK_THAT(file.message(count + winds + pitch + "4.5.6 ! VS_RtPwr\n"), Contains("DISCON.IN:11: VS_RtPwr: '4.5.6'"));
     CHECK_THAT(file.message(count + winds + pitch + "90 ! pc_refspd\n"),
                Contains("DISCON.IN:11: pc_refspd is there already, in line 2"));
@@ -159,9 +159,25 @@ TEST_CASE("servodyn: what of a ROSCO controller's file is not whole is refused w
     CHECK_THAT(file.message("2.5 ! PS_BldPitchMin_N\n" + winds + pitch), Contains("2.5; allowed: whole numbers"));
     CHECK(file.read(winds + pitch + "5e6 W ! VS_RtPwr: electrical\n80 ! VS_GenEff(%)\n").operation.rated_power ==
           6.25e6);
+    // Per cent and radians.
+    for (const char* efficiency : {"0.95", "-95", "9500"})
+        CHECK_THAT(file.message(winds + pitch + efficiency + " ! VS_GenEff\n"),
+                   Contains("DISCON.IN:10: VS_GenEff: ") && Contains(" per cent; allowed: above 1 and at most 100"));
+    CHECK_THAT(file.message(winds + pitch + "90 ! PC_MaxPit\n"),
+               Contains("DISCON.IN:10: PC_MaxPit: 90 rad; allowed: at most a turn either way"));
     // Power: electrical over the efficiency, else torque at the rated speed.
     CHECK(file.read(winds + pitch + "5e6 ! VS_RtPwr\n80 ! VS_GenEff\n7 ! VS_RtTq\n").operation.rated_power == 6.25e6);
     CHECK(file.read(winds + pitch + "5e6 ! VS_RtPwr\n70 ! VS_RtTq\n").operation.rated_power == 7000);
+}
+
+TEST_CASE("openfast: a controller that reckons with another gear ratio than the machine's is noted", "[property]") {
+    const WithController file;
+    file.model.write("DISCON.IN", "100 ! PC_RefSpd\n20 ! WE_GearboxRatio\n");  // the machine has 25
+    const TurbineFile machine = read_openfast(file.model / "small.fst");
+    CHECK(test::has_note(machine.notes, "WE_GearboxRatio", "GBRatio of the machine is 25"));
+    CHECK(machine.rotor_speed == Approx(4));
+    file.model.write("DISCON.IN", "100 ! PC_RefSpd\n24.9 ! WE_GearboxRatio\n");
+    CHECK(!test::has_note(read_openfast(file.model / "small.fst").notes, "WE_GearboxRatio", ""));
 }
 
 TEST_CASE("servodyn: library, input, period and efficiency are kept; what no library reads is not its input",

@@ -9,6 +9,7 @@
 #include "turbines/analysis/machine_wind.hpp"
 #include "turbines/readers/inflow_wind.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <system_error>
@@ -121,8 +122,34 @@ void take_run(const Machine& machine, SimulationSettings& s, const Report& repor
         take_wind(machine, s, report);
         take_start(machine, s, report);
     }
-    if (!s.wind) s.wind = WindSource::none();
+    if (!s.wind) {
+        if (machine.air)
+            report_remark(report, {Remark::Kind::taken,
+                                   "wind: none, since the model names none; SimulationSettings::wind gives one"});
+        s.wind = WindSource::none();
+    }
     if (!s.azimuth) s.azimuth = 0;
+}
+
+namespace {
+
+bool has_damping(const BeamDamping& damping, double of_first_mode) {
+    return of_first_mode > 0 || damping.needs_modes() ||
+           std::ranges::any_of(damping.time_constants, [](double time) { return time > 0; });
+}
+
+}  // namespace
+
+void note_undamped(const Machine& machine, const Report& report) {
+    const TurbineDescription& d = machine.description;
+    const bool tower = !d.tower.rigid && d.tower.line.length > 0 &&
+                       !has_damping(d.tower.damping, d.tower.first_mode_damping),
+               blades = !d.blade.rigid && !has_damping(d.blade.damping, d.blade.first_flap_damping);
+    if (!tower && !blades) return;
+    const char* const which = tower && blades ? "tower and blades have" : tower ? "the tower has" : "blades have";
+    report_remark(report, {.text = text("in the model ", which,
+                                        " no damping: vibrations do not die away, and the fastest of them set the "
+                                        "steps; MachineSettings::blade_damping, MachineSettings::tower_damping")});
 }
 
 void take_controller(const Machine& machine, Controller& c, const Report& report) {

@@ -13,6 +13,9 @@ namespace cardan::turbines {
 /// @throws InputError for a model whose wind or air cannot be read
 void take_run(const Machine& machine, SimulationSettings& settings, const Report& report);
 
+/// Says that tower or blades bend without any damping, which makes runs long.
+void note_undamped(const Machine& machine, const Report& report);
+
 /// The controller of the model's own run. A library that is not at its path is sought beside the model, by its name and
 /// as lib*.so; where there is none that can be loaded here, the baseline controller stands in. None where the rotor
 /// does not turn freely.

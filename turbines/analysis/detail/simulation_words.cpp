@@ -58,6 +58,8 @@ void check(const SimulationSettings& o) {
                                        {"SimulationSettings::generator_torque", o.generator_torque.value_or(0)},
                                        {"SimulationSettings::generator_slope", o.generator_slope}})
         if (!std::isfinite(value)) throw InputError(field, "value", value, "finite");
+    if (o.wind && o.wind->speed() != nullptr)
+        require_not_negative("SimulationSettings::wind", "value [m/s]", *o.wind->speed());
     if (o.controller.acts() && o.generator_slope != 0)
         throw InputError("SimulationSettings::generator_slope", "value", o.generator_slope,
                          "none beside SimulationSettings::controller, which sets the torque");

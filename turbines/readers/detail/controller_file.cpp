@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/text.hpp"
+#include "mbs/base/units.hpp"
 #include "turbines/readers/detail/openfast_words.hpp"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ std::string keyword_of(std::string_view remark) {
 
 ControllerFile::ControllerFile(std::string_view text, std::string name) : name_(std::move(name)) {
     for (int number = 1; !text.empty(); ++number) {
+        lines_ = number;
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view line = text.substr(0, end);
         text.remove_prefix(std::min(end + 1, text.size()));
@@ -52,7 +54,9 @@ void ControllerFile::fail(std::string_view keyword, std::string_view what) const
 const ControllerFile::Entry& ControllerFile::entry_of(std::string_view keyword) const {
     const auto found = entries_.find(lower_case(keyword));
     if (found == entries_.end())
-        throw ParseError(name_, 1, 0, text("no line with the keyword ", keyword, " behind its value and a !"));
+        throw ParseError(
+            name_, lines_, 0,
+            text("no line with the keyword ", keyword, ", behind its value and a !, up to the end of the file"));
     return found->second;
 }
 
@@ -124,9 +128,21 @@ std::vector<PitchAtWind> least_pitch(const ControllerFile& file) {
     return out;
 }
 
+// What lies beyond is in another unit.
+void check_units(const ControllerFile& file) {
+    constexpr double turn = 2 * pi, whole_per_cent = 1;
+    for (const char* keyword : {"PC_FinePit", "PC_MinPit", "PC_MaxPit"})
+        if (const double angle = file.number(keyword).value_or(0); std::abs(angle) > turn)
+            file.fail(keyword, text(angle, " rad; allowed: at most a turn either way"));
+    if (const double efficiency = file.number("VS_GenEff").value_or(0);
+        efficiency < 0 || (efficiency > 0 && efficiency <= whole_per_cent) || efficiency > 100)
+        file.fail("VS_GenEff", text(efficiency, " per cent; allowed: above ", whole_per_cent, " and at most 100"));
+}
+
 }  // namespace
 
 FileOperation operation_of(const ControllerFile& file) {
+    check_units(file);
     const auto of = [&](const char* keyword) { return file.number(keyword).value_or(0); };
     FileOperation out;
     const double efficiency = of("VS_GenEff") / 100, gears = of("WE_GearboxRatio"), electrical = of("VS_RtPwr"),
@@ -135,6 +151,7 @@ FileOperation operation_of(const ControllerFile& file) {
         out.rated_power = electrical / efficiency;
     else if (on_shaft > 0)
         out.rated_power = on_shaft;
+    out.gear_ratio = gears;
     if (gears > 0 && of("VS_MinOMSpd") > 0) out.least_speed = of("VS_MinOMSpd") / gears;
     if (of("VS_TSRopt") > 0) out.tip_speed_ratio = of("VS_TSRopt");
     out.least_pitch = least_pitch(file);

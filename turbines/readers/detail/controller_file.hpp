@@ -44,6 +44,7 @@ private:
     [[nodiscard]] double number_in(std::string_view keyword, const Entry& entry, std::size_t i) const;
 
     std::string name_;
+    int lines_ = 0;
     std::map<std::string, Entry> entries_;  // by keyword in lower case
 };
 
@@ -61,8 +62,9 @@ std::vector<PitchAt> pitch_over_speed(const std::vector<PitchAtWind>& winds, dou
 /// no VS_TSRopt ...)
 std::vector<PitchAt> minimum_pitch(const ControllerFile& file);
 
-/// VS_RtPwr over VS_GenEff, or VS_RtTq at PC_RefSpd; VS_MinOMSpd, VS_TSRopt, PS_BldPitchMin over PS_WindSpeeds.
-/// @throws ParseError as minimum_pitch()
+/// VS_RtPwr over VS_GenEff, or VS_RtTq at PC_RefSpd; VS_MinOMSpd, VS_TSRopt, WE_GearboxRatio, PS_BldPitchMin over
+/// PS_WindSpeeds.
+/// @throws ParseError as minimum_pitch(), and for angles and an efficiency that are in another unit
 FileOperation operation_of(const ControllerFile& file);
 
 /// Gains and limits of pitch and torque. Gains that lower the pitch as the speed rises, as ROSCO has them, are positive

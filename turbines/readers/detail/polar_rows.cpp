@@ -26,12 +26,21 @@ void insert_row(Polar::Table& table, std::ptrdiff_t at, double angle, double lif
     table.moment.insert(table.moment.begin() + at, moment);
 }
 
-// A table from 0 to 360 deg as one from -180 to 180: what lies beyond 180 deg goes before the rest. At 0 deg the first
-// row holds, at 180 deg what lies between its neighbours, if there is none.
+// A row at 360 deg is that at 0 again.  @return true if it was another one
+bool drop_last(Polar::Table& table) {
+    bool differs = false;
+    for (auto* column : {&table.lift, &table.drag, &table.moment}) {
+        differs = differs || column->back() != column->front();
+        column->pop_back();
+    }
+    table.angles.pop_back();
+    return differs;
+}
+
+// A table from 0 to 360 deg as one from -180 to 180: what lies beyond 180 deg goes before the rest. At 180 deg there is
+// what lies between its neighbours, if no row is there.
 void turn_to_front(Polar::Table& table) {
     std::vector<double>& angles = table.angles;
-    if (angles.back() > 2 * pi - end_slack && angles.size() > 1)
-        for (auto* column : {&angles, &table.lift, &table.drag, &table.moment}) column->pop_back();
     auto at = std::lower_bound(angles.begin(), angles.end(), pi - end_slack) - angles.begin();
     const auto i = static_cast<std::size_t>(at);
     if (i == angles.size()) return;
@@ -55,8 +64,10 @@ std::string close_circle(Polar::Table& table) {
     if (from < -pi + end_slack && to > pi - end_slack && from > -pi - rounded_end && to < pi + rounded_end) return {};
     std::string change = "beyond these the coefficients stay those of the ends, as in AeroDyn";
     if (to > pi + end_slack && from > -end_slack && to < 2 * pi + end_slack) {
+        const bool jumps = to > 2 * pi - end_slack && table.angles.size() > 1 && drop_last(table);
         turn_to_front(table);
-        change = "those beyond 180 deg are taken as negative ones";
+        change = text("those beyond 180 deg are taken as negative ones",
+                      jumps ? "; the last row differs from that at 0 deg, which holds" : "");
     } else if (from < -pi - rounded_end || to > pi + rounded_end) {
         throw InputError("polar", "angles of attack [deg]", in_degrees(from, to), "-180 ... 180, or 0 ... 360");
     }
@@ -93,6 +104,9 @@ Polar::Table polar_of_rows(const OpenFastFile& file, const std::vector<OpenFastF
         out.moment.push_back(value(columns.moment));
     }
     if (rows.empty()) return out;
+    if (const auto least = std::ranges::min_element(out.drag); *least < 0)
+        notes.push_back({file.name(), rows.front().line, "drag", text(*least, " ..."),
+                         "less than zero, taken as it is: such a profile drives itself"});
     const std::string range = in_degrees(out.angles.front(), out.angles.back());
     try {
         const std::string change = close_circle(out);
