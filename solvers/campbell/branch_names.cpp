@@ -48,6 +48,7 @@ public:
             return branches;
         }
         if (neighbour_) neighbour_->pair(branches);
+        for (const CampbellPoint& point : points_) names_.push_back(names_at(point));
         std::vector<Naming> namings = by_sums(branches);
         if (mac) hand_over(branches, namings, mac);
         for (std::size_t b = 0; b < branches.size(); ++b) set(branches[b], namings[b]);
@@ -71,8 +72,10 @@ private:
     int moving_row(const Branch& branch) const;
     int usual_row(const Branch& branch) const;
     std::string usual_kind(const Branch& branch) const;
+    double share(std::size_t point, int mode, const Label& label) const;
     Matrix scores(const std::vector<Branch>& branches) const;
     std::vector<Naming> by_sums(const std::vector<Branch>& branches) const;
+    std::vector<HandOver::Name> names_at(const CampbellPoint& point) const;
     std::vector<HandOver::Name> names_at_rest(const std::vector<CampbellMode>& modes) const;
     void order_pairs(const std::vector<CampbellMode>& modes, std::vector<HandOver::Name>& names) const;
     void hand_over(std::vector<Branch>& branches, std::vector<Naming>& namings, const HandOver::Mac& mac) const;
@@ -89,8 +92,9 @@ private:
     const std::vector<CampbellPoint>& points_;
     const EnergyShares& energy_shares_;
     const std::vector<std::string>& rows_;
-    NeighbourNames* neighbour_;  // may be null
-    bool whirl_;                 // at some speed
+    NeighbourNames* neighbour_;                       // may be null
+    bool whirl_;                                      // at some speed
+    std::vector<std::vector<HandOver::Name>> names_;  // by point and mode
     ModeLabels labels_;
 };
 
@@ -125,6 +129,17 @@ std::string BranchNames::usual_kind(const Branch& branch) const {
         ->first;
 }
 
+// Of a mode's energy under a label. At standstill, where nothing whirls, that of a pair is under the name that the mode
+// has there: a curve begins as it goes on, also where the rotor hardly turns.
+double BranchNames::share(std::size_t point, int mode, const Label& label) const {
+    const double part = ModeLabels::part(entry(points_[point].modes, mode), label);
+    const HandOver::Name& own = entry(names_[point], mode);
+    if (points_[point].rotor_speed != 0 || !whirl_ || own.label == nullptr || own.or_pair) return part;
+    if (is_pair(*own.label, label)) return 0;
+    const bool whirls = label.pattern == RotorPattern::backward || label.pattern == RotorPattern::forward;
+    return whirls && is_same(*own.label, label) ? 2 * part : part;
+}
+
 Matrix BranchNames::scores(const std::vector<Branch>& branches) const {
     Matrix score = Matrix::Zero(std::ssize(branches), std::ssize(labels_.all()));
     for (Eigen::Index b = 0; b < score.rows(); ++b)
@@ -132,7 +147,7 @@ Matrix BranchNames::scores(const std::vector<Branch>& branches) const {
             const CampbellMode* m = mode(entry(branches, b), i);
             if (!m) continue;
             for (Eigen::Index l = 0; l < score.cols(); ++l)
-                score(b, l) += ModeLabels::part(*m, entry(labels_.all(), l));
+                score(b, l) += share(i, entry(branches, b).mode[i], entry(labels_.all(), l));
         }
     return score;
 }
@@ -154,16 +169,7 @@ std::vector<Naming> BranchNames::by_sums(const std::vector<Branch>& branches) co
 
 void BranchNames::hand_over(std::vector<Branch>& branches, std::vector<Naming>& namings,
                             const HandOver::Mac& mac) const {
-    std::vector<std::vector<HandOver::Name>> names;
-    for (const CampbellPoint& point : points_) {
-        if (point.rotor_speed == 0 && whirl_) {
-            names.push_back(names_at_rest(point.modes));
-            continue;
-        }
-        std::vector<HandOver::Name>& own = names.emplace_back();
-        for (const CampbellMode& mode : point.modes) own.push_back({labels_.certain(point.rotor_speed, mode)});
-    }
-    const auto by_energy = [&](std::size_t point, int index) { return entry(names[point], index); };
+    const auto by_energy = [&](std::size_t point, int index) { return entry(names_[point], index); };
     const auto by_neighbour = [this](std::size_t point, int index) -> HandOver::Name {
         const Branch* const there = neighbour_->certain(point, index);
         return {there ? own_label(*there) : nullptr};
@@ -172,6 +178,15 @@ void BranchNames::hand_over(std::vector<Branch>& branches, std::vector<Naming>& 
         HandOver(points_, by_neighbour, mac).run(branches, namings, false);
     else
         HandOver(points_, by_energy, mac).run(branches, namings, true);
+}
+
+// As far as a point goes.
+std::vector<HandOver::Name> BranchNames::names_at(const CampbellPoint& point) const {
+    if (point.rotor_speed == 0 && whirl_) return names_at_rest(point.modes);
+    std::vector<HandOver::Name> names;
+    names.reserve(point.modes.size());
+    for (const CampbellMode& mode : point.modes) names.push_back({labels_.certain(point.rotor_speed, mode)});
+    return names;
 }
 
 // At standstill every vibration is named after its own energies, whatever it is followed to: which curve of a pair it
