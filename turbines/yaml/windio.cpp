@@ -226,8 +226,9 @@ private:
                                   file_.version() == 2 ? "components.drivetrain" : "components.nacelle");
         NacelleDescription& n = d_.nacelle;
         // The rotor's end of the shaft up.
-        const double uptilt = small_angle(
-            file_.get({"components.drivetrain.outer_shape.uptilt", "components.nacelle.drivetrain.uptilt"}));
+        const double uptilt =
+            small_angle(file_.get({"components.drivetrain.outer_shape.uptilt", "components.nacelle.drivetrain.uptilt",
+                                   "components.nacelle.drivetrain.uptilt_angle"}));
         const double overhang =
             file_.get({"components.drivetrain.outer_shape.overhang", "components.nacelle.drivetrain.overhang"})
                 .number();

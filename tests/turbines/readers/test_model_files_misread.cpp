@@ -262,6 +262,12 @@ TEST_CASE("windio: the drive train's spring under its name of version 1", "[prop
     CHECK(d.drive_train.main_shaft.damping == 2e4);
 }
 
+TEST_CASE("windio: the tilt under its name before version 1", "[property]") {
+    CHECK(
+        windio_with("small_v1.yaml", "      uptilt: 0.06981", "      uptilt_angle: 0.06981").description.nacelle.tilt ==
+        read_windio(test::data_file("windio/small_v1.yaml")).description.nacelle.tilt);
+}
+
 TEST_CASE("own yaml: what cannot be read again is not written", "[property]") {
     TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
     d.hub.radius = std::numeric_limits<double>::infinity();
