@@ -62,17 +62,24 @@ public:
         return words;
     }
 
-private:
     static std::string reason() {
         const char* const words = dlerror();
         return words ? words : "no reason is given";
     }
 
+private:
     void* handle_;
     Discon* function_ = nullptr;
     std::vector<float> swap_;
     std::vector<char> input_, output_, message_;
 };
+
+std::string BladedController::why_not_loaded(const std::filesystem::path& library) {
+    void* const handle = dlopen(std::filesystem::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) return Library::reason();
+    dlclose(handle);
+    return {};
+}
 
 BladedController::BladedController(const std::filesystem::path& library, Options options)
     : path_(library), own_(std::move(options)) {

@@ -68,6 +68,8 @@ public:
 
     /// @throws FileError if the library cannot be loaded or has no such function; InputError for bad options
     BladedController(const std::filesystem::path& library, Options options);
+    /// The system's words on a library that cannot be loaded here; empty: it can. What it runs on loading, it runs.
+    static std::string why_not_loaded(const std::filesystem::path& library);
     ~BladedController();
     BladedController(const BladedController&) = delete;
     BladedController& operator=(const BladedController&) = delete;

@@ -29,8 +29,8 @@ struct Ratings {
 };
 
 [[noreturn]] void refuse(const char* quantity) {
-    throw InputError("Controller::baseline()", quantity, "not given",
-                     "in the model, or another controller: SimulationSettings::controller");
+    throw InputError("Controller::baseline()", quantity, "none, and the model names none",
+                     "one, or another controller: SimulationSettings::controller");
 }
 
 Ratings ratings_of(const Machine& machine) {

@@ -105,6 +105,25 @@ TEST_CASE("model run: it survives our own YAML, and one that cannot be had says 
     check_refused([&] { Simulation(model.read(), coarse()); }, {"SimulationSettings::wind", "NumAFfiles", "or none"});
 }
 
+TEST_CASE("model run: where the model's library cannot be loaded the baseline controller stands in", "[property]") {
+    const Model model;
+    const std::string servo = test::bytes_of(model.folder / "small_ServoDyn.dat");
+    model.folder.write("small_ServoDyn.dat", servo + "\n\"broken.so\" DLL_FileName - library\n");
+    model.folder.replace("small_ServoDyn.dat", "0   PCMode", "5   PCMode");
+    for (const char* const content : {"no library",
+                                      "\x7f"
+                                      "ELF but broken"}) {
+        model.folder.write("broken.so", content);
+        SimulationSettings settings = coarse();
+        std::string said;
+        settings.report = [&](const Remark& remark) { said += remark.text; };
+        const Simulation run(model.read(), settings);
+        CHECK(run.settings().controller.kind == Controller::Kind::baseline);
+        CHECK_THAT(said, Catch::Contains("the model's controller, broken.so, ") &&
+                             Catch::Contains("the baseline controller stands in"));
+    }
+}
+
 // SIG_: no torque at 1200 rpm, 500 N m at 2 % slip. TEC_: the slope at no load of Thevenin's circuit, by differences of
 //     T(s) = 3 V^2 (R2 / s) / (w ((R1' + R2 / s)^2 + (X1' + X2)^2))
 // with V, R1', X1' behind the magnetising reactance.

@@ -195,6 +195,13 @@ TEST_CASE("aerodyn profiles: bad data are refused with file and line", "[validat
           {"small_AeroDyn.dat:20", "UAStartRad = 1.2; allowed: 0 ... 1"});
 }
 
+TEST_CASE("aerodyn profiles: a cylinder lags in nothing, whatever its file has for that", "[property]") {
+    const SmallModel model;
+    model.replace("small_Polar_1.dat", "False      InclUAdata  ! none\n",
+                  "True InclUAdata ! zeros\n0 alpha0 ! deg\n0 C_nalpha ! 1/rad\n0 T_f0 ! -\n0 T_p ! -\n");
+    CHECK_FALSE(model.read().profiles[0].is_unsteady());
+}
+
 // Public models are not part of these sources: CARDAN_MODELS names a folder that holds their repositories. Their files
 // were made by AirfoilPrep, which finds angles and slopes in its own way: alpha0 is the zero of the table, alpha1 and
 // alpha2 are where f = 0.7.

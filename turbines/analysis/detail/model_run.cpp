@@ -1,5 +1,6 @@
 #include "turbines/analysis/detail/model_run.hpp"
 
+#include "elements/control/bladed_controller.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
@@ -160,10 +161,13 @@ void take_controller(const Machine& machine, Controller& c, const Report& report
         return;
     }
     const path found = library_beside(machine);
-    if (found.empty()) {
+    const std::string why = found.empty() ? "" : BladedController::why_not_loaded(found);
+    if (found.empty() || !why.empty()) {
         report_remark(report, {.text = text("the model's controller, ", name_of(machine.controller.library),
-                                            ", is no library that can be loaded here, and none lies beside it or the "
-                                            "model: the baseline controller stands in")});
+                                            found.empty() ? ", is no library that can be loaded here, and none lies "
+                                                            "beside it or the model"
+                                                          : text(", cannot be loaded here (", why, ")"),
+                                            ": the baseline controller stands in")});
         c.kind = Controller::Kind::baseline;
         return;
     }

@@ -102,7 +102,9 @@ private:
     bool included_;
 };
 
-ProfileLags lags_of(UnsteadyData& data, ProfileModel model) {
+// What does not lift, as a cylinder, lags in nothing, and files then have zeros.
+ProfileLags lags_of(UnsteadyData& data, ProfileModel model, const Polar& polar) {
+    if (std::ranges::all_of(polar.table().lift, [](double lift) { return lift == 0; })) return {.model = model};
     const ProfileLags thin;
     return {.A1 = data.number("A1", 0).value_or(thin.A1),
             .A2 = data.number("A2", 0).value_or(thin.A2),
@@ -158,7 +160,7 @@ void note_cut_out(OpenFastFile& file, UnsteadyData& data) {
 
 UnsteadyProfile made_profile(OpenFastFile& file, const Polar& polar, UnsteadyData& data, ProfileModel model) {
     try {
-        return {polar, flow_of(file, data, polar), lags_of(data, model)};
+        return {polar, flow_of(file, data, polar), lags_of(data, model, polar)};
     } catch (const InputError& error) {  // numbers beyond all measure
         file.fail("NumAlf", error.what());
     }
