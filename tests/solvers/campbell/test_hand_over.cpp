@@ -24,7 +24,7 @@ struct Exchange {
     explicit Exchange(std::size_t count) : points(count), branches(2), namings{{{0}}, {{1}}} {
         for (CampbellPoint& point : points) {
             point.rotor_speed = 1;
-            for (int c = 0; c < 2; ++c) point.modes.emplace_back().shares = {{0, 0.5}, {1, 0.5}};
+            for (int c = 0; c < 2; ++c) point.modes.emplace_back().shares = {{0, 0.5}, {1, 0.5}, {2, 0.0}};
         }
         for (int b = 0; b < 2; ++b) {
             entry(branches, b).mode.assign(count, b);
