@@ -132,12 +132,12 @@ std::string BranchNames::usual_kind(const Branch& branch) const {
 // Of a mode's energy under a label. At standstill, where nothing whirls, that of a pair is under the name that the mode
 // has there: a curve begins as it goes on, also where the rotor hardly turns.
 double BranchNames::share(std::size_t point, int mode, const Label& label) const {
-    const double part = ModeLabels::part(entry(points_[point].modes, mode), label);
-    const HandOver::Name& own = entry(names_[point], mode);
-    if (points_[point].rotor_speed != 0 || !whirl_ || own.label == nullptr || own.or_pair) return part;
-    if (is_pair(*own.label, label)) return 0;
-    const bool whirls = label.pattern == RotorPattern::backward || label.pattern == RotorPattern::forward;
-    return whirls && is_same(*own.label, label) ? 2 * part : part;
+    const CampbellMode& own = entry(points_[point].modes, mode);
+    const HandOver::Name& name = entry(names_[point], mode);
+    const bool named_at_rest = points_[point].rotor_speed == 0 && whirl_ && name.label != nullptr && !name.or_pair;
+    if (named_at_rest && is_pair(*name.label, label)) return 0;
+    return named_at_rest && is_same(*name.label, label) ? ModeLabels::held(0, own, label)
+                                                        : ModeLabels::part(own, label);
 }
 
 Matrix BranchNames::scores(const std::vector<Branch>& branches) const {

@@ -72,13 +72,6 @@ double alone(const CampbellMode& mode, int blade, double least) {
     return own >= least ? own : 0;
 }
 
-double held(double rotor_speed, const CampbellMode& mode, const Label& label) {
-    const bool whirls = label.pattern == RotorPattern::backward || label.pattern == RotorPattern::forward;
-    if (!whirls || rotor_speed != 0) return ModeLabels::part(mode, label);
-    return ModeLabels::part(mode, {label.component, RotorPattern::backward, label.harmonic}) +
-           ModeLabels::part(mode, {label.component, RotorPattern::forward, label.harmonic});
-}
-
 // The part of the energy of a label's component that has its pattern (at standstill: that of its pair). A motion
 // localised in one blade of three has a third of each.
 double own_pattern(const CampbellMode& mode, const Label& label) {
@@ -143,6 +136,13 @@ double ModeLabels::part(const CampbellMode& mode, const Label& label) {
     const Share& share = entry(mode.shares, label.component);
     if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic, label.least) * share.total();
     return share.of(label.pattern, label.harmonic);
+}
+
+double ModeLabels::held(double rotor_speed, const CampbellMode& mode, const Label& label) {
+    const bool whirls = label.pattern == RotorPattern::backward || label.pattern == RotorPattern::forward;
+    if (!whirls || rotor_speed != 0) return part(mode, label);
+    return part(mode, {label.component, RotorPattern::backward, label.harmonic}) +
+           part(mode, {label.component, RotorPattern::forward, label.harmonic});
 }
 
 Label ModeLabels::strongest(double rotor_speed, const CampbellMode& mode, const Label& own) const {

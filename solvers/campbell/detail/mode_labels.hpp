@@ -33,6 +33,8 @@ public:
 
     /// Share of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward get equal shares.
     static double part(const CampbellMode& mode, const Label& label);
+    /// Likewise, but at standstill what is under the label of a whirl holds the energy of its pair.
+    static double held(double rotor_speed, const CampbellMode& mode, const Label& label);
     /// The label with the largest share; `own` if none is larger. Nothing whirls at standstill: a name there holds the
     /// energy of its pair.
     Label strongest(double rotor_speed, const CampbellMode& mode, const Label& own) const;
