@@ -17,6 +17,8 @@ constexpr double slack = 1e-6;  // rad, of the ends of a table
 constexpr double same = 1e-9;   // rad, of points of two tables
 constexpr double attached_angle = 0.08;
 constexpr double gives_way = -0.1;                  // of the steepest slope
+constexpr double most_coefficient = 1e3;            // coefficient
+constexpr double most_reynolds = 1e12;              // flow: Reynolds number
 constexpr double usual_angle = 10 * units::degree;  // to both sides of zero the lift is steepest
 
 void check(const std::string& here, const Polar::Table& table) {
@@ -31,6 +33,12 @@ void check(const std::string& here, const Polar::Table& table) {
         for (const auto* column : {&angles, &table.lift, &table.drag, &table.moment})
             if (!std::isfinite((*column)[i]))
                 throw InputError(text(here, ", point ", i + 1), "value", (*column)[i], "finite");
+        if (std::abs(angles[i]) > 2 * pi)
+            throw InputError(text(here, ", point ", i + 1), "angle of attack [rad]", angles[i], "at most a turn");
+        for (const auto* column : {&table.lift, &table.drag, &table.moment})
+            if (std::abs((*column)[i]) > most_coefficient)
+                throw InputError(text(here, ", point ", i + 1), "coefficient", (*column)[i],
+                                 text(-most_coefficient, " ... ", most_coefficient));
         if (i > 0 && !(angles[i] > angles[i - 1]))
             throw InputError(text(here, ", point ", i + 1), "angle of attack [deg]", angles[i] * units::to_degrees,
                              text("above that of the point before, ", angles[i - 1] * units::to_degrees));
@@ -97,8 +105,9 @@ Polar::Polar(std::string name, std::vector<Table> tables) : name_(std::move(name
         const std::string place = several ? text(here, ", table ", tables_.size() + 1) : here;
         check(place, table);
         const double least = tables_.empty() ? 0 : tables_.back().table.reynolds;
-        if (several && !(table.reynolds > least && std::isfinite(table.reynolds)))
-            throw InputError(place, "Reynolds number", table.reynolds, text("above ", least, ", finite"));
+        if (several && !(table.reynolds > least && table.reynolds >= 1 && table.reynolds <= most_reynolds))
+            throw InputError(place, "Reynolds number", table.reynolds,
+                             text("above ", least, ", 1 ... ", most_reynolds));
         tables_.emplace_back(std::move(table));
     }
     const Point attached = at(attached_angle);

@@ -136,6 +136,7 @@ Annulus AeroBlade::annulus(std::size_t section, double blades) const {
 
 void AeroBlade::check() const {
     constexpr const char* here = "aerodynamic blade";
+    constexpr double farthest = 1e4;  // m
     const std::size_t n = sections();
     if (n < 2) throw InputError(here, "number of sections", n, "at least 2");
     if (chord.size() != n || twist.size() != n || profile.size() != n)
@@ -152,7 +153,10 @@ void AeroBlade::check() const {
                 throw InputError(section, "offset [m]", (*offsets)[i], "finite");
         require_positive(section, "place from the hub's centre [m]", position[i]);
         require_positive(section, "chord [m]", chord[i]);
-        if (!std::isfinite(twist[i])) throw InputError(section, "twist [rad]", twist[i], "finite");
+        if (!(std::abs(twist[i]) <= 2 * pi))
+            throw InputError(section, "twist [rad]", twist[i], "at most a turn either way");
+        for (const double size : {position[i], chord[i]})
+            if (size > farthest) throw InputError(section, "place or chord [m]", size, text("at most ", farthest));
         if (i > 0 && !(position[i] > position[i - 1]))
             throw InputError(section, "place from the hub's centre [m]", position[i],
                              text("> ", position[i - 1], ", that of the section before"));

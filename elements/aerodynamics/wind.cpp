@@ -117,8 +117,16 @@ void SteadyWind::check() const {
                                       {"vertical speed [m/s]", vertical},
                                       {"height of the ground [m]", ground}})
         if (!std::isfinite(value)) throw InputError("wind", name, value, "finite");
-    for (const auto& [name, value, most] : {std::tuple("exponent of the shear", exponent, 10.0),
+    for (const auto& [name, value, most] : {std::tuple("speed [m/s]", speed, 1e3),
+                                            {"gust [m/s]", gust, 1e3},
+                                            {"vertical speed [m/s]", vertical, 1e3},
+                                            {"reference height [m]", reference_height, 1e5},
+                                            {"density of the air [kg/m^3]", density, 1e4},
+                                            {"exponent of the shear", exponent, 10.0},
+                                            {"gradient over the height [1/m]", gradient, 1e3},
+                                            {"gradient across the wind [1/m]", lateral, 1e3},
                                             {"direction [rad]", direction, 4 * pi},
+                                            {"veer [rad/m]", veer, 1e3},
                                             {"upflow [rad]", upflow, pi / 2}})
         if (std::abs(value) > most) throw InputError("wind", name, value, text(-most, " ... ", most));
     if (shear == Shear::logarithmic && !(roughness > 0 && roughness < reference_height))

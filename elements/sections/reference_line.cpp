@@ -121,10 +121,14 @@ namespace {
 void check_points(const std::vector<Vec3>& points, std::size_t least) {
     if (points.size() < least)
         throw InputError("reference line", "number of points", points.size(), text("at least ", least));
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (!points[i].allFinite() || (i > 0 && points[i] == points[i - 1]))
+    double length = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double before = length;
+        if (i > 0) length += (points[i] - points[i - 1]).norm();
+        if (!points[i].allFinite() || !std::isfinite(length) || (i > 0 && length == before))
             throw InputError("reference line", text("point ", i + 1, " [m]"), points[i].transpose(),
-                             "finite, apart from the point before it");
+                             "finite, apart from the point before it, which the length up to there must show");
+    }
 }
 
 }  // namespace

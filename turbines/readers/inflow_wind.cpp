@@ -114,6 +114,11 @@ InflowWindFile read_inflow_wind(const std::filesystem::path& path, double densit
     out.wind = kind == 1 ? Wind(steady_wind(file, density)) : wind_over_time(file, density);
     out.wind =
         out.wind.turned(-file.number("PropagationDir") * units::degree, file.number_or("VFlowAng", 0) * units::degree);
+    try {
+        for (const SteadyWind& row : out.wind.rows()) row.check();
+    } catch (const InputError& error) {
+        file.fail("PropagationDir", text("with it and VFlowAng: ", error.what()));
+    }
     out.notes = file.notes({{{"*"}, "of other kinds of wind, and output"}});
     return out;
 }

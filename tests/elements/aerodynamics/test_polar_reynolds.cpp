@@ -100,6 +100,8 @@ TEST_CASE("polar: tables that do not fit are refused", "[validation]") {
     CHECK_THAT(said({table_at(4e6, 2, 0), table_at(4e6, 2, 0)}),
                Contains("'P', table 2") && Contains("Reynolds number = 4000000; allowed: above 4000000"));
     CHECK_THAT(said({table_at(0, 2, 0), table_at(4e6, 2, 0)}), Contains("table 1") && Contains("above 0"));
+    CHECK_THAT(said({table_at(1e-308, 2, 0), table_at(4e6, 2, 0)}),
+               Contains("table 1") && Contains("Reynolds number = 1e-308; allowed: above 0, 1 ... "));
     Polar::Table gap = table_at(5e6, 2, 0);
     gap.angles.back() = 3.1;
     CHECK_THAT(said({table_at(4e6, 2, 0), gap}), Contains("table 2") && Contains("-180 ... 180"));

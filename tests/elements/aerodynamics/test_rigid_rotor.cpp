@@ -191,6 +191,11 @@ TEST_CASE("polar: interpolation around the circle, its slopes, what is refused",
         {"DU40", "-180 ... 170", "-180 ... 180"});
     check_refused([&] { Polar("DU40", d({-180, 0, 180}), {1, 2}, three, three); }, {"DU40", "values in a column = 2"});
     check_refused([&] { Polar("DU40", d({-180, 0, 180}), {1, std::nan(""), 2}, three, three); }, {"point 2", "finite"});
+    check_refused(
+        [&] {
+            Polar("DU40", d({-180, 0, 180}), three, {1, -1e308, 2}, three);
+        },
+        {"DU40", "point 2", "coefficient = -1e+308", "-1000 ... 1000"});
 }
 
 TEST_CASE("wind: laws of shear, direction, veer, upflow", "[analytic]") {
@@ -211,6 +216,9 @@ TEST_CASE("wind: laws of shear, direction, veer, upflow", "[analytic]") {
     check_refused([] { SteadyWind{.speed = -1}.check(); }, {"speed", "-1"});
     check_refused([] { SteadyWind{.shear = Shear::logarithmic}.check(); }, {"roughness [m] = 0"});
     check_refused([] { SteadyWind{.density = 0}.check(); }, {"density"});
+    check_refused([] { SteadyWind{.exponent = 1e5}.check(); }, {"exponent of the shear = 1", "-10 ... 10"});
+    check_refused([] { SteadyWind{.speed = 1e308}.check(); }, {"speed [m/s] = 1e+308", "-1000 ... 1000"});
+    check_refused([] { SteadyWind{.speed = 8, .direction = 1e300}.check(); }, {"direction [rad] = 1e+300"});
 }
 
 TEST_CASE("wind over time: linear between its rows, steps between two of the same time", "[analytic]") {

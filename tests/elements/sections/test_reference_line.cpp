@@ -227,6 +227,8 @@ TEST_CASE("reference line: bad points are refused with their number and value", 
     refused({o, x, x, 2 * x}, LineShape::spline, {"point 3 [m]"});
     refused({o, Vec3(not_a_number, 0, 0)}, LineShape::polyline, {"point 2 [m] = nan", "finite"});
     refused({Vec3(0, not_a_number, 0), x, 2 * x, 3 * x}, LineShape::spline, {"point 1 [m]", "nan"});
+    refused({o, 1e20 * x, 1e20 * x + Vec3(0, 1, 0), 2e20 * x}, LineShape::spline, {"point 3 [m] = 1", "must show"});
+    refused({o, 1e308 * x, -1e308 * x, x}, LineShape::spline, {"point 2 [m] = 1e+308", "finite"});
     refused({o, x, Vec3(0.5, 0, 0)}, LineShape::polyline,
             {"reference line, point 2: turn of the reference line [deg] = 180; allowed: less than 180"});
     refused({o, -x}, LineShape::polyline, {"turn of the reference line [deg] = 180"});

@@ -55,6 +55,9 @@ TEST_CASE("inflow wind: steady winds; what has their keywords again; others are 
                      {"wind.dat:4", "WindType = 3; allowed: 1"});
     files.write("wind.dat", main_file("1", "8 VFlowAng - deg\n"));
     CHECK(read_inflow_wind(files / "wind.dat").wind.rows().front().upflow == Approx(8 * units::degree));
+    files.write("wind.dat", main_file("1", "1e9 VFlowAng - deg\n"));
+    check_wind_error([&] { static_cast<void>(read_inflow_wind(files / "wind.dat")); },
+                     {"wind.dat:5", "upflow [rad] = 17453292.5"});
 }
 
 TEST_CASE("inflow wind: uniform wind over time", "[analytic]") {
