@@ -1,5 +1,6 @@
 #include "turbines/machine/machine_text.hpp"
 
+#include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
 #include "turbines/machine/detail/machine_fields.hpp"
 #include "turbines/model/description_text.hpp"
@@ -46,6 +47,8 @@ Machine parse_machine(const std::string& text, const std::string& file) {
         machine.no_air.clear();
     }
     reader.finish();
+    if (const std::string why = refusal_of(machine.description); !why.empty())
+        throw InputError(cardan::text(file, ": ", why));
     if (!machine.air && machine.no_air.empty()) machine.no_air = Machine().no_air;
     return machine;
 }

@@ -12,6 +12,7 @@ namespace cardan::turbines {
 namespace {
 
 constexpr std::string_view blanks = " \t\r", list_of_channels = "outlist";
+constexpr std::size_t longest_line = 1'000'000;
 
 // As Fortran reads them: T, .T., .true and the like.
 std::optional<bool> truth(std::string_view word) {
@@ -140,6 +141,9 @@ OpenFastFile OpenFastFile::parse(std::string_view text, std::string file) {
     for (int number = 1; !rest.empty(); ++number) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         const std::string_view all = rest.substr(0, end);
+        if (all.size() > longest_line)
+            throw ParseError(out.file_, number, 0,
+                             cardan::text("a line of ", all.size(), " bytes; allowed: at most ", longest_line));
         if (number == 2 && is_rule(all) && out.lines_.front().all.find_first_not_of("- \t\r") == std::string::npos)
             ++titles;
         Line line = classified(all, number, titles);

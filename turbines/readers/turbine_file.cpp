@@ -4,14 +4,20 @@
 #include "mbs/base/stations.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cardan::turbines {
 
 namespace {
 
-// What is refused; empty: nothing. An inertia that a file does not give is the user's to set.
 std::string refused(TurbineDescription machine, bool unusual) {
     machine.unusual = unusual;
+    return refusal_of(std::move(machine));
+}
+
+}  // namespace
+
+std::string refusal_of(TurbineDescription machine) {
     machine.missing.clear();
     if (machine.drive_train.generator_inertia == 0) machine.drive_train.generator_inertia = 1;
     try {
@@ -21,8 +27,6 @@ std::string refused(TurbineDescription machine, bool unusual) {
         return error.what();
     }
 }
-
-}  // namespace
 
 std::size_t FileNote::entries() const {
     return line == 0 ? static_cast<std::size_t>(std::ranges::count(keyword, ',')) + 1 : 1;

@@ -146,6 +146,10 @@ struct TurbineFile {
 /// Linear between the speeds of a schedule, constant beyond its ends; rad.  @throws InputError for an empty schedule
 double pitch_at(const std::vector<PitchAt>& schedule, double rotor_speed);
 
+/// Why assemble() would refuse a machine, whatever is set before: a mass or an inertia that its file does not give is
+/// the user's to set. Empty: it would not.
+std::string refusal_of(TurbineDescription machine);
+
 /// A description that only `TurbineDescription::unusual` admits becomes so, with a note (`unusual_entries`) that names
 /// the first such value: what a file says in its own units is meant.
 /// @param name  of the file, for the note

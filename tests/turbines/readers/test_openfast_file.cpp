@@ -69,6 +69,9 @@ TEST_CASE("openfast file: errors give file, line and what was expected", "[prope
                Contains("folder/x.dat:3:2: Mass: 'yes' is neither True nor False"));
     CHECK_THAT(message(" 2.5 Mass\n", [](OpenFastFile& f) { (void)f.integer("Mass", 1, 3); }),
                Contains("Mass = 2.5; allowed: a whole number, 1 ... 3"));
+    CHECK_THAT(
+        message_of([] { (void)OpenFastFile::parse("--- a\nb\n" + std::string(2'000'000, '1') + "\n", "x.dat"); }),
+        Contains("x.dat:3: a line of 2000000 bytes; allowed: at most 1000000"));
     CHECK_THAT(message(" \"\" Mass\n", [](OpenFastFile& f) { (void)f.path("Mass"); }), Contains("is empty"));
     CHECK_THAT(message_of([] { (void)OpenFastFile::parse("one line", "y"); }), Contains("y:1: an OpenFAST input file"));
     CHECK_THAT(message_of([] { (void)OpenFastFile::read("no/such.dat"); }),
