@@ -165,7 +165,9 @@ bool TurbineDescription::has(MissingEntry::Part part) const {
 }
 
 void TurbineDescription::require_complete() const {
-    if (!missing.empty()) throw InputError(text(name, ": ", in_words(missing)));
+    if (missing.empty()) return;
+    const std::string& file = missing.front().file;
+    throw InputError(text(file, file.empty() ? "" : ": ", name, ": ", in_words(missing)));
 }
 
 void TurbineDescription::check() const {

@@ -142,9 +142,10 @@ struct MissingFoundation {
 struct MissingEntry {
     enum class Part : std::uint8_t { tower, nacelle, hub, blade };
     Part part = Part::tower;
-    std::string what;   ///< "mass of the hub"
-    std::string key;    ///< of the source, which would say it: "components.hub.elastic_properties.mass"
-    std::string value;  ///< what stands for its value in messages, with the unit: "MASS_kg"; empty: it has several
+    std::string what;       ///< "mass of the hub"
+    std::string key;        ///< of the source, which would say it: "components.hub.elastic_properties.mass"
+    std::string value;      ///< what stands for its value in messages, with the unit: "MASS_kg"; empty: it has several
+    std::string file = {};  ///< that lacks it
 };
 
 /// What is missing, and how it is given, in one line: "the model lacks: mass of the hub; remedy: --set KEY=MASS_kg".

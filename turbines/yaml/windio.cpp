@@ -108,6 +108,7 @@ public:
         for (FileNote& note : file_.notes) out_.notes.push_back(std::move(note));
         for (FileNote& note : file_.unused()) out_.notes.push_back(std::move(note));
         admit_unusual(out_, file_.root().file());
+        for (MissingEntry& one : d_.missing) one.file = file_.root().file();
         return std::move(out_);
     }
 

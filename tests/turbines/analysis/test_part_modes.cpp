@@ -78,6 +78,7 @@ TEST_CASE("part modes: those of a machine do not depend on the masses that it la
 TEST_CASE("analyses of a machine that lacks masses refuse it in the same words", "[property]") {
     const Machine machine = bare();
     const std::string refusal =
+        text(test::data_file("windio/bare_v2.yaml"), ": ") +
         "fictitious machine without masses: the model lacks: mass of the hub; mass of nacelle and drive train; remedy: "
         "--set components.hub.elastic_properties.mass=MASS_kg --set "
         "components.drivetrain.elastic_properties.mass=MASS_kg";

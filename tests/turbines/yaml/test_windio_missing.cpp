@@ -46,7 +46,7 @@ TEST_CASE("windio: a model without the masses of hub and nacelle is read, and sa
     CHECK(d.has(Part::tower));
     CHECK_FALSE(d.has(Part::hub));
     CHECK_FALSE(d.has(Part::nacelle));
-    const std::string refusal = text("fictitious machine without masses: ", words);
+    const std::string refusal = text(bare(), ": fictitious machine without masses: ", words);
     CHECK(message_of([&] { (void)assemble(d); }) == refusal);
     CHECK(message_of([&] { (void)converged_mesh(d); }) == refusal);
     CHECK(message_of([&] { (void)isolated_tower(d, {}, true); }) == refusal);

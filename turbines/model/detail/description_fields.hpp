@@ -173,6 +173,7 @@ void description_fields(Archive& archive, Description& d) {
                 archive.word("what", one.what);
                 archive.word("key", one.key);
                 archive.optional_word("value", one.value);
+                archive.optional_word("file", one.file);
             });
         });
     });
