@@ -3,6 +3,7 @@
 #include "turbines/model/detail/description_writer.hpp"
 #include "turbines/yaml/detail/description_reader.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -55,10 +56,11 @@ Wind wind_of(WindFields fields) {
     for (SteadyWind& row : rows) row.shear = fields.shear;
     for (std::size_t k = 0; k < wind_columns.size(); ++k) {
         const std::vector<double>& values = fields.columns.at(k);
-        if (values.size() != rows.size())
+        if (values.size() != rows.size() && values.size() != 1)
             throw InputError("wind", text("values of ", wind_columns.at(k).name), values.size(),
-                             text(rows.size(), ", one per time"));
-        for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*wind_columns.at(k).of = values[i];
+                             text(rows.size(), ", one per time, or one"));
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            rows[i].*wind_columns.at(k).of = values.size() == 1 ? values[0] : values[i];
     }
     return {std::move(fields.times), std::move(rows)};
 }
@@ -69,8 +71,11 @@ std::string to_yaml(const Wind& wind) {
     WindFields fields;
     fields.shear = wind.rows().front().shear;
     fields.times = wind.times();
-    for (std::size_t k = 0; k < wind_columns.size(); ++k)
-        for (const SteadyWind& row : wind.rows()) fields.columns.at(k).push_back(row.*wind_columns.at(k).of);
+    for (std::size_t k = 0; k < wind_columns.size(); ++k) {
+        std::vector<double>& values = fields.columns.at(k);
+        for (const SteadyWind& row : wind.rows()) values.push_back(row.*wind_columns.at(k).of);
+        if (std::ranges::all_of(values, [&](double value) { return value == values.front(); })) values.resize(1);
+    }
     Writer writer(BeamLines::exact);
     wind_fields(writer, std::as_const(fields));
     return writer.out + "\n";
@@ -80,7 +85,9 @@ std::optional<Wind> wind_of(const std::string& input_description, const std::str
     const std::size_t at = input_description.find(text("\n", wind_key, ":"));
     if (at == std::string::npos) return std::nullopt;
     const std::size_t end = input_description.find("\n\n", at + 1);
-    const YamlNode root = YamlNode::parse(input_description.substr(at + 1, end - at), result);
+    // A day at 100 Hz.
+    constexpr YamlLimits long_tables{.bytes = std::size_t{1} << 30, .nodes = 100'000'000};
+    const YamlNode root = YamlNode::parse(input_description.substr(at + 1, end - at), result, {}, long_tables);
     DescriptionReader reader(root);
     WindFields fields;
     wind_fields(reader, fields);

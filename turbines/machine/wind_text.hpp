@@ -9,7 +9,8 @@
 
 namespace cardan::turbines {
 
-/// One list per quantity of its rows, with enough digits to be read back exactly; ends with an empty line.
+/// One list per quantity of its rows, of one number where that does not change, with enough digits to be read back
+/// exactly; ends with an empty line.
 std::string to_yaml(const Wind& wind);
 
 /// The wind in an input description (result.hpp); none: it holds none.

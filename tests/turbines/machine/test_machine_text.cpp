@@ -305,4 +305,23 @@ TEST_CASE("wind yaml: a wind over time is read again from a description, bit for
     CHECK_THAT(message_of([&] { (void)wind_of(bad, "a.h5"); }), Contains("values of speed = 4; allowed: 3"));
 }
 
+TEST_CASE("wind yaml: an hour at 50 Hz is read again, what does not change is one number", "[property]") {
+    std::vector<double> times;
+    std::vector<SteadyWind> rows;
+    for (int i = 0; i <= 180'000; ++i) {
+        times.push_back(0.02 * i);
+        rows.push_back({.speed = 12 + std::sin(0.01 * i), .direction = 0.1 * std::cos(0.003 * i)});
+    }
+    const Wind wind(times, rows);
+    const std::string about = "made by a test\n\n" + to_yaml(wind);
+    CHECK_THAT(about, Contains("\ngust: [0]\n"));
+    const auto read = wind_of(about, "a.h5");
+    REQUIRE(read);
+    CHECK(read->times() == wind.times());
+    const auto same = [](const SteadyWind& a, const SteadyWind& b) {
+        return a.speed == b.speed && a.direction == b.direction && a.gust == b.gust && a.density == b.density;
+    };
+    CHECK(std::ranges::equal(read->rows(), wind.rows(), same));
+}
+
 }  // namespace cardan::testing::machine_text_tests

@@ -213,8 +213,14 @@ private:
     void entry(const char* key, const std::string& value) { out += text(indentation(), key, ": ", value, "\n"); }
     template <class Values>
     std::string list(const Values& values, bool or_infinite = false) const {
+        constexpr int most_in_line = 1000;
         std::string all;
-        for (double value : values) all += (all.empty() ? "" : ", ") + digits(value, "list", or_infinite);
+        int count = 0;
+        for (double value : values) {
+            if (count > 0) all += count % most_in_line == 0 ? ",\n" + indentation() + "  " : ", ";
+            all += digits(value, "list", or_infinite);
+            ++count;
+        }
         return "[" + all + "]";
     }
     template <class M>

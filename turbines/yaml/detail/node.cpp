@@ -19,8 +19,8 @@ YamlNode YamlNode::child(const YamlTree& tree, std::string path) const {
 namespace {
 
 // The trees of a document whose root is a map.
-YamlTrees maps(const std::string& text, const std::string& file, int document) {
-    YamlTrees trees = yaml_trees(text, file);
+YamlTrees maps(const std::string& text, const std::string& file, int document, const YamlLimits& limits) {
+    YamlTrees trees = yaml_trees(text, file, limits);
     if (trees.empty() || trees.front()->kind != YamlTree::Kind::map)
         throw ParseError(file, 1, 0, "a YAML map expected");
     for (const auto& tree : trees) tree->document = document;
@@ -45,12 +45,12 @@ const YamlTree& merged(const YamlTree& a, const YamlTree& b, YamlTrees& trees) {
 
 }  // namespace
 
-YamlNode YamlNode::parse(const std::string& text, const std::string& file,
-                         const std::vector<ModelAddition>& additions) {
-    auto document = std::make_shared<Document>(Document{{file}, maps(text, file, 0), {}, {}});
+YamlNode YamlNode::parse(const std::string& text, const std::string& file, const std::vector<ModelAddition>& additions,
+                         const YamlLimits& limits) {
+    auto document = std::make_shared<Document>(Document{{file}, maps(text, file, 0, limits), {}, {}});
     const YamlTree* root = document->trees.front().get();
     for (const ModelAddition& addition : additions) {
-        YamlTrees more = maps(addition.text, addition.name, static_cast<int>(document->files.size()));
+        YamlTrees more = maps(addition.text, addition.name, static_cast<int>(document->files.size()), limits);
         const YamlTree& added = *more.front();
         document->files.push_back(addition.name);
         document->trees.insert(document->trees.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));

@@ -21,7 +21,7 @@ public:
     /// The only document of a text, with what others add: a map to a map, by keys; anything else replaces what is
     /// there. @throws ParseError, see yaml_trees(), and if one is not a map
     static YamlNode parse(const std::string& text, const std::string& file,
-                          const std::vector<ModelAddition>& additions = {});
+                          const std::vector<ModelAddition>& additions = {}, const YamlLimits& limits = {});
 
     const std::string& file() const { return document_->files[static_cast<std::size_t>(tree_->document)]; }
     const std::string& path() const { return path_; }  ///< "components.blade"
