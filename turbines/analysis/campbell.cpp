@@ -3,6 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/hdf5/campbell.hpp"
+#include "solvers/linear/problem_size.hpp"
 #include "turbines/analysis/detail/rounded.hpp"
 #include "turbines/analysis/in_unit.hpp"
 #include "turbines/analysis/prepared_machine.hpp"
@@ -122,6 +123,11 @@ solvers::Campbell over_speeds(const Machine& machine, const CampbellSettings& s,
     return solvers::campbell(cases, "", options);
 }
 
+// Before what is done with full matrices.
+void check_size(const Turbine& turbine) {
+    solvers::check_number_of_unknowns(turbine.rotor().machine, turbine.system().model.coordinates().free().size());
+}
+
 CampbellDiagram over_rotor_speed(const Machine& machine, CampbellSettings s) {
     if (s.rotor_speeds.empty()) s.rotor_speeds = usual_speeds(machine, s.report);
     if (s.progress) s.progress("rotor speed", 0, static_cast<int>(s.rotor_speeds.size()));
@@ -133,6 +139,7 @@ CampbellDiagram over_rotor_speed(const Machine& machine, CampbellSettings s) {
     if (!s.max_frequency_hz) s.max_frequency_hz = usual_frequency(machine.description, assembly);
     const PreparedTurbine ready =
         assembled(machine, assembly, *s.max_frequency_hz, std::abs(s.rotor_speeds.back()), s.report);
+    check_size(ready.turbine);
     keep_elements(ready.mesh, s.machine);
     CampbellDiagram diagram{over_speeds(machine, s, ready.turbine, pitch)};
     diagram.mesh = ready.mesh;
@@ -155,6 +162,7 @@ CampbellDiagram over_wind(const Machine& machine, CampbellSettings s) {
                                      .max_frequency_hz = *s.max_frequency_hz,
                                      .report = s.report,
                                      .cancelled = s.cancelled});
+    check_size(run.ready.turbine);
     s.machine = run.options.machine;
     const AeroelasticOptions air = aeroelastic_options(s.vibration, run.air);
     const std::string words = in_words(air, run.air);

@@ -2,7 +2,6 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "solvers/linear/problem_size.hpp"
 #include "turbines/analysis/detail/rounded.hpp"
 #include "turbines/analysis/in_unit.hpp"
 
@@ -134,10 +133,8 @@ PreparedTurbine assembled(const Machine& machine, AssemblyOptions assembly, doub
     assembly.mesh.largest_hz = max_hz;
     assembly.mesh.rotor_speed = rotor_speed;
     const Turbine turbine = assemble(description, assembly);
-    // Numbers that were asked for are judged as well, but of no machine whose own modes would take too long.
-    const bool as_it_is =
-        turbine.mesh().largest_hz > 0 || turbine.system().model.coordinates().free().size() > solvers::max_unknowns;
-    const Mesh mesh = as_it_is ? turbine.mesh() : converged_mesh(description, assembly);
+    // Numbers that were asked for are judged as well.
+    const Mesh mesh = turbine.mesh().largest_hz > 0 ? turbine.mesh() : converged_mesh(description, assembly);
     if (description.platform)
         report_remark(report,
                       {Remark::Kind::taken, text("mesh: chosen with the ", description.platform->name, " held")});

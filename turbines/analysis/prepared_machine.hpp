@@ -18,7 +18,7 @@ AssemblyOptions assembly_options(const Machine& machine, const MachineSettings& 
 
 struct PreparedTurbine {
     Turbine turbine;
-    Mesh mesh;  ///< in figures also where numbers of elements were given, up to solvers::max_unknowns
+    Mesh mesh;  ///< in figures also where numbers of elements were given
 };
 /// Warnings of the assembly are reported.
 /// @param assembly  assembly_options()

@@ -63,14 +63,16 @@ struct Change {
     int modes = 0;
 };
 
-// Below this fraction of the largest frequency a motion counts as one without stiffness, which rounding moves.
-constexpr double at_least = 1e-3;
+// Frequencies that are compared. Below the least a motion counts as one without stiffness, which rounding moves.
+struct Band {
+    double least_hz = 0, largest_hz = 0;
+};
 
-// From few to many elements, of the frequencies up to the largest.
-Change largest_change(const Frequencies& few, const Frequencies& many, double largest_hz) {
+// From few to many elements.
+Change largest_change(const Frequencies& few, const Frequencies& many, const Band& band) {
     Change largest;
-    for (std::size_t k = 0; k < many.size() && many[k] <= largest_hz; ++k) {
-        if (many[k] < at_least * largest_hz) continue;
+    for (std::size_t k = 0; k < many.size() && many[k] <= band.largest_hz; ++k) {
+        if (many[k] < band.least_hz) continue;
         // A mode that few elements do not have at all.
         const double change = k < few.size() ? std::abs(few[k] / many[k] - 1) : 1.0;
         if (change >= largest.change) largest = {change, many[k], largest.modes};
@@ -78,6 +80,10 @@ Change largest_change(const Frequencies& few, const Frequencies& many, double la
     }
     return largest;
 }
+
+// Elements of a whole machine whose frequencies are computed: all eigenvalues of a full matrix of five or six times the
+// size, in a minute.
+constexpr int most_compared = 600;
 
 constexpr std::array candidates{2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24, 32, 48};
 
@@ -98,11 +104,10 @@ private:
 
 // The fewest elements, not fewer than `from`, whose frequencies twice as many do not change.
 template <class Compute>
-int fewest(Compute frequencies, const MeshOptions& mesh, double tolerance, int from) {
+int fewest(Compute frequencies, const MeshOptions& mesh, const Band& band, double tolerance, int from) {
     Known of(std::move(frequencies));
     for (int n : candidates)
-        if (n >= from && n < mesh.most && largest_change(of(n), of(2 * n), mesh.largest_hz).change <= tolerance)
-            return n;
+        if (n >= from && n < mesh.most && largest_change(of(n), of(2 * n), band).change <= tolerance) return n;
     return mesh.most;
 }
 
@@ -123,7 +128,10 @@ MeshOptions checked(const TurbineDescription& d, const AssemblyOptions& options)
 class Search {
 public:
     Search(TurbineDescription description, const AssemblyOptions& options)
-        : description_(std::move(description)), options_(options), mesh_(checked(description_, options)) {
+        : description_(std::move(description)),
+          options_(options),
+          mesh_(checked(description_, options)),
+          band_{1e-3 * std::min(mesh_.largest_hz, usual_frequency(description_, options)), mesh_.largest_hz} {
         description_.source.clear();
         description_.platform.reset();  // afloat and without gravity it would capsize
         options_.gravity.setZero();
@@ -174,7 +182,7 @@ private:
         const TurbineDescription alone = blade_alone(description_, number);
         int least = candidates.front();
         while (least < mesh_.most && !endures_rotation(alone, number, least)) ++least;
-        return fewest([&](int n) { return blade_hz(alone, number, n); }, mesh_, part_tolerance(), least);
+        return fewest([&](int n) { return blade_hz(alone, number, n); }, mesh_, band_, part_tolerance(), least);
     }
     Frequencies blade_hz(const TurbineDescription& alone, int number, int elements) const {
         const AssemblyOptions options = with(elements, 1);
@@ -196,7 +204,7 @@ private:
     int tower(bool with_top) const {
         if (!seeks_tower_elements(description_, options_)) return options_.tower_elements.value_or(1);
         const RigidInertia head = top(with_top);
-        return fewest([&](int n) { return tower_hz(n, head); }, mesh_, part_tolerance(), candidates.front());
+        return fewest([&](int n) { return tower_hz(n, head); }, mesh_, band_, part_tolerance(), candidates.front());
     }
     Frequencies tower_hz(int elements, const RigidInertia& head) const {
         const AssemblyOptions options = with(1, elements);
@@ -213,11 +221,11 @@ private:
         mesh.blade_elements = blade_elements;
         mesh.tower_elements = tower_elements;
         mesh.largest_hz = mesh_.largest_hz;
+        if (2 * (description_.blades * blade_elements + tower_elements) > most_compared) return mesh;
         Frequencies few = frequencies(blade_elements, tower_elements);
         const auto change = [&](int blade_factor, int tower_factor) {
-            return largest_change(few,
-                                  frequencies(blade_factor * mesh.blade_elements, tower_factor * mesh.tower_elements),
-                                  mesh_.largest_hz);
+            return largest_change(
+                few, frequencies(blade_factor * mesh.blade_elements, tower_factor * mesh.tower_elements), band_);
         };
         // More elements of what is sought do not make up for few of what was given.
         const int blade_factor = seeks_blade_elements(description_, options_) ? 2 : 1,
@@ -250,6 +258,7 @@ private:
     TurbineDescription description_;
     AssemblyOptions options_;
     MeshOptions mesh_;
+    Band band_;
 };
 
 bool bends(const BladeDescription& blade) {
@@ -264,6 +273,7 @@ std::string in_words(const Mesh& mesh) {
     std::ostringstream out = text_stream();
     out << "mesh: " << mesh.blade_elements << " elements per blade, " << mesh.tower_elements << " in the tower";
     if (mesh.largest_hz == 0) return out.str() + ", as given";
+    if (mesh.modes == 0 && !mesh.converged) return out.str() + ", too many to be compared with twice as many";
     out << "; with twice as many no frequency at rest up to " << mesh.largest_hz << " Hz changes by more than "
         << std::fixed << std::setprecision(2) << 100 * mesh.change << " % (that at " << std::setprecision(3)
         << mesh.at_hz << " Hz, of " << mesh.modes << ")";

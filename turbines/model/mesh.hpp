@@ -21,12 +21,12 @@ struct Mesh {
     double largest_hz = 0;   ///< frequencies up to here were compared; 0: none, the numbers were given
     double change = 0;       ///< largest relative change of a frequency from twice as many elements
     double at_hz = 0;        ///< of that frequency
-    int modes = 0;           ///< that were compared
+    int modes = 0;           ///< that were compared; 0 of more than some hundred elements in all
     bool converged = false;  ///< the change is within the tolerance
 };
 
 /// "mesh: 5 elements per blade, 3 in the tower; with twice as many no frequency at rest up to 6.9 Hz changes by more
-/// than 0.09 % (that at 5.643 Hz, of 14)", or "..., as given".
+/// than 0.09 % (that at 5.643 Hz, of 14)", or "..., as given", or "..., too many to be compared with twice as many".
 std::string in_words(const Mesh& mesh);
 
 /// The same options with the numbers of a mesh: for further assemblies of a description without another search.

@@ -89,6 +89,29 @@ TEST_CASE("mesh: what is given stays, and what cannot be reached is said", "[pro
     CHECK_FALSE(few.converged);
 }
 
+TEST_CASE("mesh: a largest frequency far above the machine's own compares all of its modes", "[property]") {
+    const TurbineDescription description = machine();
+    MeshOptions high{.largest_hz = 1e9, .most = 3};
+    const Mesh all = converged_mesh(description, with(high));
+    CHECK(all.modes > 50);
+    CHECK_FALSE(all.converged);
+    // Its lowest modes do not count as motions without stiffness.
+    high.largest_hz = 2e4;
+    CHECK(converged_mesh(description, with(high)).modes > 20);
+}
+
+TEST_CASE("mesh: elements too many for a comparison are taken as they are, and that is said", "[property]") {
+    const TurbineDescription description = machine();
+    for (const std::optional<int> tower : {std::optional<int>(3), std::optional<int>()}) {
+        const Mesh many = converged_mesh(description, {.tower_elements = tower, .blade_elements = 1000});
+        CHECK(many.blade_elements == 1000);
+        CHECK(many.tower_elements >= 2);
+        CHECK_FALSE(many.converged);
+        CHECK_THAT(in_words(many), Catch::Contains("1000 elements per blade") &&
+                                       Catch::Contains("too many to be compared with twice as many"));
+    }
+}
+
 TEST_CASE("mesh: blades that turn fast have more elements than their frequencies need", "[property]") {
     const TurbineDescription description = machine();
     const MeshOptions still{.tolerance = 0.1, .largest_hz = 3};
