@@ -166,12 +166,16 @@ void Tree::require_new_frame(const std::string& name, std::string_view where) co
 
 void Tree::require(FrameId frame, std::string_view where) const {
     if (frame.index < 0 || frame.index >= static_cast<int>(frames_.size()))
-        throw InputError(where, "frame", frame.index, text("a frame of this tree, 0 ... ", frames_.size() - 1));
+        throw InputError(where, "frame", frame.index,
+                         frames_.empty() ? std::string("none: this tree was moved from")
+                                         : text("a frame of this tree, 0 ... ", frames_.size() - 1));
 }
 
 void Tree::require(BodyId body, std::string_view where) const {
     if (body.index < 0 || body.index >= static_cast<int>(bodies_.size()))
-        throw InputError(where, "body", body.index, text("a body of this tree, 0 ... ", int(bodies_.size()) - 1));
+        throw InputError(where, "body", body.index,
+                         bodies_.empty() ? std::string("none: this tree has no body")
+                                         : text("a body of this tree, 0 ... ", bodies_.size() - 1));
 }
 
 }  // namespace cardan

@@ -69,6 +69,8 @@ public:
     /// @throws InputError for a rotor of two blades, or without multi-blade coordinates, unless the method is Floquet's
     /// (then standstill only)
     PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options = {});
+    PointSolver(System&&, const RotorMap&, const CampbellOptions& = {}) = delete;  // the system must live longer
+    PointSolver(const System&, RotorMap&&, const CampbellOptions& = {}) = delete;  // likewise the map
 
     void start_from(const Matrix& coordinates, const Matrix& states) override;
     /// The steady-state iteration starts from the previous point. From the second call on with the same `point` nothing

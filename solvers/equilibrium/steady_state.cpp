@@ -324,20 +324,32 @@ void SteadySolver::Memory::solve(const SteadyOptions& options, SteadyState& resu
     result.converged = converged && check_closed(result);
 }
 
+namespace {
+
+// In words, only if there is none.
+struct MemoryOf {
+    const System& system;
+    std::string operator()() const { return text("the steady state of ", system.model.size(), " coordinates"); }
+};
+
+}  // namespace
+
 SteadySolver::SteadySolver(const System& system, int spin) : system_(system), spin_(spin) {
     if (spin < -1 || spin >= system.model.size())
         throw InputError("steady state", "index of the spin coordinate", spin,
                          text("-1 (none) ... ", system.model.size() - 1));
-    memory_ = std::make_unique<Memory>(system, spin, false);
+    memory_ = with_memory(MemoryOf{system}, [&] { return std::make_unique<Memory>(system, spin, false); });
 }
 
 SteadySolver::~SteadySolver() = default;
 
 void SteadySolver::solve(const SteadyOptions& options, SteadyState& result) {
-    if (!system_.loops.empty()) return solve_closed(options, result);
-    if (memory_->trimmed() != options.trim.has_value())
-        memory_ = std::make_unique<Memory>(system_, spin_, options.trim.has_value());
-    memory_->solve(options, result);
+    with_memory(MemoryOf{system_}, [&] {
+        if (!system_.loops.empty()) return solve_closed(options, result);
+        if (memory_->trimmed() != options.trim.has_value())
+            memory_ = std::make_unique<Memory>(system_, spin_, options.trim.has_value());
+        memory_->solve(options, result);
+    });
 }
 
 // Which equations are independent is seen at the closed position next to the start.

@@ -58,6 +58,7 @@ public:
     /// @param spin  index of the spin coordinate, -1: none (then rotor_speed must be zero)
     /// @throws InputError if there is no such coordinate
     SteadySolver(const System& system, int spin);
+    SteadySolver(System&&, int) = delete;  // the system must live longer
     ~SteadySolver();
     SteadySolver(const SteadySolver&) = delete;
     SteadySolver& operator=(const SteadySolver&) = delete;

@@ -58,6 +58,7 @@ enum class LoopState : std::uint8_t {
 class Lineariser {
 public:
     explicit Lineariser(const System& system, LoopState loops = LoopState::at_rest);
+    explicit Lineariser(System&&, LoopState = LoopState::at_rest) = delete;  // the system must live longer
 
     /// @param out  overwritten; from the second call on with the same `out` nothing is allocated, unless a user force
     ///             allocates or is differenced.  Cost O(n^2).

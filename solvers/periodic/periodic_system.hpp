@@ -68,6 +68,9 @@ PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about
                           std::vector<int> independent = {});
 /// Over all free coordinates but the spin.
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about);
+PeriodicSystem linearised(System&&, const PeriodicSteadyState&, std::vector<int>,
+                          std::vector<int> = {}) = delete;                 // the system must live longer
+PeriodicSystem linearised(System&&, const PeriodicSteadyState&) = delete;  // likewise
 
 /// The system in multi-blade rows, rotating with psi = rotor_speed * t from psi = 0.
 PeriodicSystem in_multi_blade_rows(PeriodicSystem system, ColemanTransform transform, double rotor_speed);

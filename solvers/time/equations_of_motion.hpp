@@ -69,6 +69,7 @@ public:
     /// @param q, qd  size n: initial values, for the coordinates that are driven without a motion
     /// @throws InputError: wrong sizes or coordinates, two motions for one coordinate, values not finite
     EquationsOfMotion(const System& system, std::vector<Drive> drives, double time, const Vector& q, const Vector& qd);
+    EquationsOfMotion(System&&, std::vector<Drive>, double, const Vector&, const Vector&) = delete;  // must live longer
     ~EquationsOfMotion();
     EquationsOfMotion(const EquationsOfMotion&) = delete;
     EquationsOfMotion& operator=(const EquationsOfMotion&) = delete;

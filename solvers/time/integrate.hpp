@@ -190,6 +190,9 @@ public:
     /// they were at the checkpoint; forces may be restored before the first advance().
     Integrator(const System& system, std::vector<Drive> drives, const Checkpoint& from,
                IntegrationOptions options = {});
+    /// The system must live longer.
+    Integrator(System&&, std::vector<Drive>, double, const Vector&, const Vector&, IntegrationOptions = {}) = delete;
+    Integrator(System&&, std::vector<Drive>, const Checkpoint&, IntegrationOptions = {}) = delete;
     ~Integrator();
     Integrator(const Integrator&) = delete;
     Integrator& operator=(const Integrator&) = delete;

@@ -28,6 +28,7 @@ public:
     /// @param more        channels of elements, machines and users
     /// @throws InputError for a duplicate name or alias, or a channel without a name, units or long_name
     explicit Recorder(const Integrator& integrator, std::vector<ChannelGroup> more = {}, RecorderOptions options = {});
+    explicit Recorder(Integrator&&, std::vector<ChannelGroup> = {}, RecorderOptions = {}) = delete;  // must live longer
 
     const std::vector<Channel>& channels() const { return channels_; }
     /// @param values  out, one per channel.  Allocates.

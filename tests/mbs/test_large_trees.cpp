@@ -6,10 +6,9 @@
 #include "mbs/kernels/dynamics.hpp"
 #include "mbs/system/system.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/little_memory.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
-
-#include <sys/resource.h>
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -44,23 +43,6 @@ std::size_t bytes_of_tree_and_model(int n, Shape shape) {
     const Workspace workspace(system.model);
     return system.model.size() == n ? guard.bytes() : 0;
 }
-
-// Less address space for a while; not where a sanitizer needs it for itself.
-class LittleMemory {
-public:
-    LittleMemory() {
-        getrlimit(RLIMIT_AS, &before_);
-        rlimit less = before_;
-        less.rlim_cur = rlim_t(3) << 30;
-        setrlimit(RLIMIT_AS, &less);
-    }
-    ~LittleMemory() { setrlimit(RLIMIT_AS, &before_); }
-    LittleMemory(const LittleMemory&) = delete;
-    LittleMemory& operator=(const LittleMemory&) = delete;
-
-private:
-    rlimit before_{};
-};
 
 }  // namespace
 

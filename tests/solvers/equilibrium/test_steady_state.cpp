@@ -4,8 +4,10 @@
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/root_finding.hpp"
+#include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/contains.hpp"
+#include "tests/support/little_memory.hpp"
 #include "tests/support/point_masses.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"
@@ -326,4 +328,19 @@ TEST_CASE("steady state: springs as weak as they may be give as far as they have
             CHECK(state.at.q(0) == Approx(60).epsilon(1e-12));
             CHECK(state.at.q(1) / u.length == Approx(60).epsilon(1e-12));
         }
+}
+
+TEST_CASE("steady state: memory that runs out is an error that says for what", "[property]") {
+    if (!AllocationGuard::works()) return;
+    constexpr int n = 60000;
+    Tree tree;
+    ForceSet forces;
+    for (int k = 0; k < n; ++k) {
+        const BodyId body = tree.add_body({.name = text("body ", k), .inertia = {1, Vec3::Zero(), Mat3::Identity()}});
+        forces.add_spring(text("spring ", k), body, 10);
+    }
+    const System system(tree, forces);
+    const LittleMemory little;
+    CHECK_THROWS_MATCHES(SteadySolver(system, -1), MemoryError,
+                         Catch::Matchers::Message("not enough memory for the steady state of 60000 coordinates"));
 }

@@ -325,8 +325,8 @@ TEST_CASE("channels: names and aliases are unique and complete, and a recorder g
         TurbineDescription d = wt600_description();
         d.blades = blades;
         const Turbine turbine = assemble(d, wt600_paper_assembly());
-        const solvers::Recorder recorder(integrator_at_rest(turbine.system()),
-                                         channels(turbine));  // throws for names that come twice
+        const solvers::Integrator integrator = integrator_at_rest(turbine.system());
+        const solvers::Recorder recorder(integrator, channels(turbine));  // throws for names that come twice
         std::set<std::string> aliases;
         for (const Channel& channel : recorder.channels())
             if (!channel.alias.empty()) CHECK(aliases.insert(channel.alias).second);
@@ -338,9 +338,11 @@ TEST_CASE("channels: names and aliases are unique and complete, and a recorder g
         CHECK_FALSE(aliases.contains("RootMxb4"));
     }
     const Wt600Operation machine = wt600_operation({.assembly = heavy()});
-    CHECK_NOTHROW(solvers::Recorder(integrator_at_rest(machine.turbine.system()), machine.channels));
+    const solvers::Integrator running = integrator_at_rest(machine.turbine.system());
+    CHECK_NOTHROW(solvers::Recorder(running, machine.channels));
     const Turbine blade = isolated_blade(wt600_description(), wt600_paper_assembly());
-    const solvers::Recorder recorder(integrator_at_rest(blade.system()), channels(blade));
+    const solvers::Integrator alone = integrator_at_rest(blade.system());
+    const solvers::Recorder recorder(alone, channels(blade));
     for (const Channel& channel : recorder.channels()) CHECK(channel.alias != "TwrBsMxt");
 }
 
