@@ -199,22 +199,24 @@ void PendingFile::discard() const noexcept {
     }
 }
 
-void write_file(const fs::path& path, std::string_view contents) {
-    const PendingFile pending(path);
+void PendingFile::complete(std::string_view contents) const {
     try {
         errno = 0;
         std::ofstream out;
         out.imbue(std::locale::classic());
-        out.open(pending.partial(), std::ios::binary | std::ios::trunc);
+        out.open(partial_, std::ios::binary | std::ios::trunc);
         out << contents;
         out.close();
-        if (!out)
-            throw FileError(pending.path(), text("cannot be completed: ", std::generic_category().message(errno)));
-        pending.commit();
+        if (!out) throw FileError(path_, text("cannot be completed: ", std::generic_category().message(errno)));
+        commit();
     } catch (...) {
-        pending.discard();
+        discard();
         throw;
     }
+}
+
+void write_file(const fs::path& path, std::string_view contents) {
+    PendingFile(path).complete(contents);
 }
 
 }  // namespace cardan

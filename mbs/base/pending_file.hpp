@@ -38,6 +38,8 @@ public:
     /// program has begun to write that file.
     /// @param replace  false: an older file is an error
     void commit(bool replace = true) const;
+    /// Writes a whole text and commits it. Throws FileError; the previous file stays then, and no partial file is left.
+    void complete(std::string_view contents) const;
     /// Removes the partial file, if it is there and no other program is writing it.
     void discard() const noexcept;
 

@@ -11,6 +11,7 @@
 #include <fcntl.h>
 #include <fstream>
 #include <iterator>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -55,6 +56,28 @@ public:
 private:
     std::string path_;
     int fd_ = -1;
+};
+
+/// A file in memory, which another process finds under its path, and which no full disk cuts short.
+class MemoryFile {
+public:
+    MemoryFile() : fd_(::memfd_create("cardan picture", MFD_CLOEXEC)) {
+        if (fd_ < 0) throw FileError("a picture in memory", text("cannot be created: ", system_reason(errno)));
+    }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+    MemoryFile(MemoryFile&&) = delete;
+    MemoryFile& operator=(MemoryFile&&) = delete;
+    ~MemoryFile() { ::close(fd_); }
+
+    [[nodiscard]] std::string path() const { return text("/proc/", ::getpid(), "/fd/", fd_); }
+    [[nodiscard]] std::string contents() const {
+        std::ifstream in(path(), std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+private:
+    int fd_;
 };
 
 std::string trimmed(std::string all) {
@@ -104,12 +127,8 @@ std::string line_types() {
     return lines + text("set linetype cycle ", palette.size(), "\n");
 }
 
-/// gnuplot does not notice a full disk; a picture that is cut off does not end as it should.
-bool complete(const std::string& path, const Kind& kind) {
-    std::error_code code;
-    if (!fs::is_regular_file(path, code)) return false;
-    std::ifstream in(path, std::ios::binary);
-    const std::string all{std::istreambuf_iterator<char>(in), {}};
+/// gnuplot does not notice that it cannot write; a picture that is cut off does not end as it should.
+bool is_whole(const std::string& all, const Kind& kind) {
     constexpr std::size_t tail = 64;
     return all.starts_with(kind.beginning) &&
            all.find(kind.end, all.size() - std::min(tail, all.size())) != std::string::npos;
@@ -185,33 +204,27 @@ std::string Gnuplot::write_picture(const fs::path& path, std::string_view body, 
     if (size.width < 50 || size.height < 50 || size.width > 20000 || size.height > 20000) {
         throw InputError(path.string(), "size", text(size.width, " x ", size.height), "50 to 20000 pixels each way");
     }
-    // An absolute path: gnuplot runs "|program" as a program and expands "~".
-    const fs::path absolute = fs::absolute(path);
-    const std::string name = absolute.string();
-    if (std::any_of(name.begin(), name.end(), is_control)) {
-        throw FileError(path.string(), "a path must not contain control characters");
-    }
-    const PendingFile file(absolute);
-    std::string output;
-    for (const char c : file.partial()) output += c == '\'' ? "''" : std::string(1, c);
+    const PendingFile file(path);
+    const MemoryFile picture;
     const std::string script = text(
         "set encoding utf8\nset terminal ", terminal(kind, size), "\n", kind.ending == ".svg" ? after_the_same : "",
         line_types(),
         "set border linewidth 1 linecolor rgb '#404040'\nset grid linetype 1 linecolor rgb '#e4e4e4' linewidth 0.6\n",
-        "set output '", output, "'\n", body, "\nunset multiplot\nset output\n");
+        "set output '", picture.path(), "'\n", body, "\nunset multiplot\nset output\n");
+    std::string said, all;
     try {
-        std::string said = run(script);
-        if (!complete(file.partial(), kind)) {
-            throw FileError(path.string(), text("the picture is not complete: is the disk full, or does the script "
-                                                "draw nothing or elsewhere?",
+        said = run(script);
+        all = picture.contents();
+        if (!is_whole(all, kind))
+            throw FileError(path.string(), text("the picture is not complete: is the size of files limited, or "
+                                                "does the script draw nothing or elsewhere?",
                                                 said.empty() ? "" : "\n", said));
-        }
-        file.commit();
-        return said;
     } catch (...) {
         file.discard();
         throw;
     }
+    file.complete(all);
+    return said;
 }
 
 }  // namespace cardan::solvers
