@@ -4,6 +4,7 @@
 // same way. What each of them does stands at the head of its file, programs/cardan/COMMAND.cpp.
 #include "mbs/base/version.hpp"
 #include "programs/cardan/commands.hpp"
+#include "programs/shared/program.hpp"
 
 #include <algorithm>
 #include <array>
@@ -65,8 +66,8 @@ int (*command_of(const char* name))(int argc, char** argv) {
 int main(int argc, char** argv) {
     using namespace cardan::program;
     const std::string_view word = argc > 1 ? argv[1] : "";
-    if (word == "--help" || word == "-h" || (word == "help" && argc == 2)) return print_usage(stdout), 0;
-    if (word == "--version") return std::puts(std::string(cardan::version()).c_str()), 0;
+    if (word == "--help" || word == "-h" || (word == "help" && argc == 2)) return print_usage(stdout), shown("cardan");
+    if (word == "--version") return std::puts(std::string(cardan::version()).c_str()), shown("cardan");
     const bool help = word == "help";
     const char* const name = help ? argv[2] : argv[1];  // null: none
     int (*const command)(int, char**) = name == nullptr ? nullptr : command_of(name);

@@ -152,7 +152,7 @@ int run(const Arguments& a) {
     std::vector<int> all(static_cast<std::size_t>(model.size()));
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
     print_modes(solvers::restrict_to(linear, all), table, a.modes);
-    return std::cout.flush() ? 0 : 1;
+    return 0;
 }
 
 }  // namespace

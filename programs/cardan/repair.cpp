@@ -28,7 +28,7 @@ int run(RepairArguments& a, const CommandLine& /*command*/) {
     if (done.changed() && !done.flush_completed)
         std::cout << done.bytes_removed << " bytes of a flush that was broken off were removed";
     std::cout << "; " << info.rows << " rows, " << state_in_words(info) << "\n";
-    return std::cout.flush() ? 0 : 1;
+    return 0;
 }
 
 }  // namespace

@@ -11,7 +11,10 @@
 #include "programs/cardan/simulate_options.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 namespace cardan::program {
 
@@ -75,6 +78,24 @@ double recorded_work(const solvers::History& history, std::size_t every) {
     return sum;
 }
 
+constexpr std::array loads{std::pair("generator power", "generator"), std::pair("rotor torque power", "rotor torque"),
+                           std::pair("work rate of the air", "air")};
+
+// What is printed, checked and drawn: of a long run all channels may not fit into memory.
+std::vector<std::string> needed(const turbines::MachineLayout& layout, const std::vector<Channel>& channels,
+                                std::initializer_list<std::vector<solvers::HistoryPanel>> pictures) {
+    std::vector<std::string> names = main_channels(layout, channels);
+    for (const char* name : {"RotSpeed", "kinetic energy", "potential energy", "dissipated energy",
+                             "energy from drives", "energy from loads", "energy error"})
+        names.emplace_back(name);
+    for (const auto& [channel, name] : loads) names.emplace_back(channel);
+    for (const std::vector<solvers::HistoryPanel>& panels : pictures)
+        for (const solvers::HistoryPanel& panel : panels)
+            names.insert(names.end(), panel.channels.begin(), panel.channels.end());
+    std::erase_if(names, [&](const std::string& name) { return !has(channels, name); });
+    return names;
+}
+
 bool check_balance(const turbines::Recording& run, const SimulateArguments& a) {
     const solvers::History& history = run.history;
     const solvers::EnergyBalance& end = run.energy;
@@ -84,22 +105,20 @@ bool check_balance(const turbines::Recording& run, const SimulateArguments& a) {
     const double scale = parked ? exchanged : kinetic;
     std::printf("\n");
     bool good = check_energy(end, scale, 10 * a.run.tolerance, parked);
-    std::string loads;
-    for (const auto& [channel, name] : {std::pair("generator power", "generator"),
-                                        {"rotor torque power", "rotor torque"},
-                                        {"work rate of the air", "air"}})
-        if (has(history.channels, channel)) loads += text(loads.empty() ? "" : ", ", name);
-    if (!loads.empty() && history.time.size() > 1) {
+    std::string acting;
+    for (const auto& [channel, name] : loads)
+        if (has(history.channels, channel)) acting += text(acting.empty() ? "" : ", ", name);
+    if (!acting.empty() && history.time.size() > 1) {
         // What pitch drives do counts as a load as well.
         const double pitching = end.state_supply - end.state_dissipation, work = recorded_work(history, 1);
         const double error = (end.loads - pitching - work) / scale, allowed = a.run.step / 4;
         // Of an oscillation that the outputs do not resolve trapezoids say nothing.
         if (std::abs(error) > allowed && std::abs(work - recorded_work(history, 2)) > allowed * scale)
             std::printf("recorded power of %s: outputs every %g s are too far apart to check it by its work; --step\n",
-                        loads.c_str(), a.run.step);
+                        acting.c_str(), a.run.step);
         else
-            good =
-                check(text("recorded power of ", loads, " against its work, likewise").c_str(), error, allowed) && good;
+            good = check(text("recorded power of ", acting, " against its work, likewise").c_str(), error, allowed) &&
+                   good;
     }
     return good;
 }
@@ -135,7 +154,8 @@ int run(SimulateArguments& a, const CommandLine& command) {
     a.machine.gravity = !a.no_gravity;
     if (a.run.out.empty()) a.run.out = default_prefix(a.machine.model, "history");
     const turbines::SimulationSettings settings = settings_of(a);
-    if (!a.run.resume && !a.list) check_outputs(a.run.out, run_outputs, {a.machine.model, a.wind});
+    const bool begun = a.run.resume && std::filesystem::exists(a.run.out + ".h5");
+    if (!begun && !a.list) check_outputs(a.run.out, run_outputs, {a.machine.model, a.wind});
     turbines::Machine machine = prepared_machine(a.machine);
     check_stations(machine, a.machine, a.stations);
     if (a.rated_power) machine.operation.rated_power = *a.rated_power * 1e3;
@@ -145,22 +165,25 @@ int run(SimulateArguments& a, const CommandLine& command) {
     turbines::Simulation simulated = simulation(a, settings, machine);
     if (a.list) return print(simulated.channels()), 0;
     const turbines::MachineLayout& layout = simulated.turbine().layout();
-    const std::vector<solvers::HistoryPanel> pictures = panels(a, layout, simulated.channels());
+    const std::vector<solvers::HistoryPanel> pictures = panels(a, layout, simulated.channels()),
+                                             spectra = spectra_of(layout);
 
     const double duration = simulated.duration({.duration = a.duration});
     const Stopwatch watch;
-    const turbines::Recording result = simulated.record(a.run.out + ".h5", {.duration = a.duration,
-                                                                            .step = a.run.step,
-                                                                            .resume = a.run.resume,
-                                                                            .origin = run_text("simulate", command),
-                                                                            .progress = TimeShown(duration)});
+    const turbines::Recording result =
+        simulated.record(a.run.out + ".h5", {.duration = a.duration,
+                                             .step = a.run.step,
+                                             .resume = a.run.resume,
+                                             .origin = run_text("simulate", command),
+                                             .kept = needed(layout, simulated.channels(), {pictures, spectra}),
+                                             .progress = TimeShown(duration)});
     const Elapsed elapsed = watch.elapsed();
     progress("\r                              \r");
 
     print_result(simulated, a, result.history);
     const bool good = check_balance(result, a);
     print_effort(simulated.integrator(), simulated.turbine().system(), elapsed);
-    write_pictures(result.history, a.run.out, pictures, spectra_of(layout),
+    write_pictures(result.history, simulated.channels().size(), a.run.out, pictures, spectra,
                    {.from = simulated.integrator().time() / 2,
                     .blades = static_cast<int>(layout.blades.size()),
                     .max_frequency_hz = 8});

@@ -125,7 +125,8 @@ void declare(CommandLine& app, SimulateArguments& a) {
         .one_word();
     app.add_flag("--list", a.list, "print the channels and end");
     app.add_flag("--resume", a.run.resume,
-                 "go on with PREFIX.h5 from where it was broken off, or beyond its end; same options but --duration");
+                 "go on with PREFIX.h5 from where it was broken off, or beyond its end, or begin where there is none; "
+                 "same options but --duration");
 }
 
 turbines::SimulationSettings settings_of(const SimulateArguments& a) {

@@ -118,6 +118,7 @@ int with_errors(const char* name, const Body& body) {
 template <class Body>
 int working(const char* name, const Body& body) {
     handle_signals(ask_to_stop);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error as a full disk is
     const LongWork told(name);
     return with_memory("this run; fewer elements, times or speeds need less", body);
 }

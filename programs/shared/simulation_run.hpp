@@ -112,14 +112,14 @@ inline solvers::Advance record(solvers::Integrator& integrator, solvers::Recorde
 inline const std::initializer_list<const char*> run_outputs{".h5", ".svg", ".png", "_energy.png", "_spectrum.png"};
 
 /// Draws the pictures of PREFIX.h5, which is closed, and says what there is.
+/// @param channels  of the file; those of the pictures, of the energies and RotSpeed are in the history
 /// @param panels    PREFIX.svg and .png
 /// @param spectra   PREFIX_spectrum.png, of the stretch of time in `of`; none without panels
 /// @param of        the rotor speed is that at the end
-inline void write_pictures(const solvers::History& history, const std::string& prefix,
+inline void write_pictures(const solvers::History& history, std::size_t channels, const std::string& prefix,
                            const std::vector<solvers::HistoryPanel>& panels,
                            const std::vector<solvers::HistoryPanel>& spectra, SpectraOptions of) {
-    std::cout << "\nfiles: " << prefix << ".h5 (" << history.time.size() << " samples of " << history.channels.size()
-              << " channels)";
+    std::cout << "\nfiles: " << prefix << ".h5 (" << history.time.size() << " samples of " << channels << " channels)";
     if (history.time.size() > 1) {
         for (const char* ending : {".svg", ".png"}) solvers::plot(history, panels, prefix + ending);
         solvers::plot_energies(history, prefix + "_energy.png");
@@ -137,7 +137,7 @@ inline void write_outputs(Rows& rows, const std::string& prefix, bool complete,
                           const std::vector<solvers::HistoryPanel>& panels,
                           const std::vector<solvers::HistoryPanel>& spectra, const SpectraOptions& of) {
     rows.file.close(complete);
-    write_pictures(rows.history(), prefix, panels, spectra, of);
+    write_pictures(rows.history(), rows.history().channels.size(), prefix, panels, spectra, of);
 }
 
 }  // namespace cardan::program

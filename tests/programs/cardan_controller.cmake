@@ -75,6 +75,8 @@ add_example_test(example_controller_fail cardan 1 "at 0.5 s it reports a failure
     ${small} ${library} --controller-input fail --duration 1 --out example_controller_fail)
 add_example_test(example_controller_library_resume cardan 1 "--resume: controller = .*allowed: baseline: a library keeps its memory" simulate
     ${small} ${library} --resume --out example_controller_library)
+set_tests_properties(example_controller_library PROPERTIES FIXTURES_SETUP library_run)
+set_tests_properties(example_controller_library_resume PROPERTIES FIXTURES_REQUIRED library_run)
 # Torque over time.
 file(WRITE ${test_output_dir}/rotor_torque.csv "time[s],torque[N m]\n0,3e6\n1,3e6\n1.2,4e6\n")
 file(WRITE ${test_output_dir}/rotor_torque_back.csv "time[s],torque[N m]\n0,3e6\n0,4e6\n")

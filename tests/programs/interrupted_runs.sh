@@ -76,4 +76,11 @@ echo "half a picture" >left.svg.partial
 "$run" $options --duration 1 --out left >left.log 2>&1 || true
 grep -q "left.svg.partial was left behind by a run that was killed" left.log || fail "$(cat left.log)"
 [ ! -e left.svg.partial ] || fail "left.svg.partial is still there"
+
+# A limit on the size of files is an error as a full disk is, and what was written stays.
+code=0
+(ulimit -f 1500 && exec "$run" $options --duration 100000 --out limited >limited.log 2>&1) || code=$?
+[ "$code" = 1 ] || fail "at the limit of a file's size it ends with $code: $(cat limited.log)"
+grep -q "limited.h5: .*File too large" limited.log || fail "$(cat limited.log)"
+"$cardan" info limited.h5 >info || fail "limited.h5 cannot be read: $(cat info)"
 echo "interrupted runs: all is well"

@@ -44,12 +44,13 @@ Difference difference(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-solvers::Checkpoint resumed_checkpoint(const std::filesystem::path& file, const std::string& description) {
-    const solvers::HistoryInfo info = solvers::read_history_info(file);
-    if (!info.checkpoint)
+std::optional<solvers::Checkpoint> resumed_checkpoint(const std::filesystem::path& file,
+                                                      const std::string& description) {
+    solvers::HistoryInfo info = solvers::read_history_info(file);
+    if (!info.checkpoint && info.rows > 0)
         throw InputError("RecordSettings::resume", file.string(), "without a checkpoint", "a run that was broken off");
     const std::string made = what_is_run(info.about.description), wanted = what_is_run(description);
-    if (made == wanted) return *info.checkpoint;
+    if (made == wanted) return std::move(info.checkpoint);
     const Difference differs = difference(made, wanted);
     throw InputError("RecordSettings::resume", text("run of ", file.string()), differs.first,
                      text("that of this run: ", differs.second));

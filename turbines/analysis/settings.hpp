@@ -263,8 +263,11 @@ struct RecordSettings {
     /// Time that is simulated, from the start of the simulation, s; none: the model's (ModelRun), else 20.
     std::optional<double> duration = {};
     double step = 0.02;       ///< between outputs, s
-    bool resume = false;      ///< goes on with the file, from its checkpoint
+    bool resume = false;      ///< goes on with the file, from its checkpoint; where there is none, it begins
     std::string origin = {};  ///< begins the file's description: by what it was made
+    /// Channels of the result, by name or alias; empty: all. A file has all of them whatever this says, and with some
+    /// of them here a run takes no more memory the longer it is.
+    std::vector<std::string> kept = {};
     /// Called after every output.
     std::function<void(double time)> progress = {};
 };

@@ -113,8 +113,8 @@ void Simulation::Parts::resume(const std::filesystem::path& file, const RecordSe
     if (!integrator->resumable())
         throw InputError("RecordSettings::resume", "controller", settings.controller.library.string(),
                          "baseline: a library keeps its memory to itself, so that its run cannot go on");
-    const solvers::Checkpoint from = resumed_checkpoint(file, description(o.step));
-    integrator.emplace(model->turbine.system(), drives, from, integration);
+    if (const std::optional<solvers::Checkpoint> from = resumed_checkpoint(file, description(o.step)))
+        integrator.emplace(model->turbine.system(), drives, *from, integration);
 }
 
 Recording Simulation::Parts::record(const RecordSettings& o, solvers::HistoryRecording& into) {
@@ -126,7 +126,7 @@ Recording Simulation::Parts::record(const RecordSettings& o, solvers::HistoryRec
         });
     require_result(end);
     into.close(end.reached());
-    return {into.history(), end.reached(), integrator->energy(), integrator->statistics()};
+    return {into.release(), end.reached(), integrator->energy(), integrator->statistics()};
 }
 
 Simulation::Simulation(const Machine& machine, const SimulationSettings& settings) : parts_(std::make_unique<Parts>()) {
@@ -141,15 +141,19 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Recording Simulation::record(const std::filesystem::path& file, const RecordSettings& settings) {
     Parts& p = *parts_;
     check(settings, p.machine);
-    if (settings.resume) {
+    const bool begun = std::filesystem::exists(file);
+    if (settings.resume && !begun)
+        report_remark(p.report(),
+                      {Remark::Kind::taken, text("resume: ", file.string(), " is not there, the run begins")});
+    if (settings.resume && begun) {
         p.resume(file, settings);
-        solvers::HistoryRecording into(file, *p.integrator, *p.recorder);
+        solvers::HistoryRecording into(file, *p.integrator, *p.recorder, settings.kept);
         return p.record(settings, into);
     }
     const solvers::HistoryMetadata about{.title = p.title,
                                          .method = std::string(name_of(p.settings.method)),
                                          .description = settings.origin + p.description(settings.step)};
-    solvers::HistoryRecording into(file, about, *p.integrator, *p.recorder);
+    solvers::HistoryRecording into(file, about, *p.integrator, *p.recorder, settings.kept);
     return p.record(settings, into);
 }
 
@@ -157,7 +161,7 @@ Recording Simulation::record(const RecordSettings& settings) {
     check(settings, parts_->machine);
     if (settings.resume)
         throw InputError("RecordSettings::resume", "file", "none", "the file of a run that was broken off");
-    solvers::HistoryRecording into(parts_->title, *parts_->recorder);
+    solvers::HistoryRecording into(parts_->title, *parts_->recorder, settings.kept);
     return parts_->record(settings, into);
 }
 

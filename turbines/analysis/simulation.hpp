@@ -23,7 +23,7 @@ namespace cardan::turbines {
 
 /// What was recorded of a run.
 struct Recording {
-    solvers::History history;
+    solvers::History history;       ///< of the channels in RecordSettings::kept
     bool complete = false;          ///< false: it was cancelled before
     solvers::EnergyBalance energy;  ///< at its end
     solvers::IntegrationStatistics statistics;

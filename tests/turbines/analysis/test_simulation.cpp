@@ -71,6 +71,43 @@ TEST_CASE("simulation: in memory and in a file a run is the same, and so it is i
                   {"RecordSettings::resume: run of ", "every 0.0125 s", "that of this run: every 0.02 s"});
 }
 
+TEST_CASE("simulation: a run that was broken off before its first rows begins", "[property]") {
+    const test::Folder folder;
+    const std::string whole = folder / "whole.h5", empty = folder / "empty.h5";
+    Simulation first(nrel5mw(), in_the_wind());
+    const Recording wanted = first.record(whole, {.duration = 0.2, .step = 0.05});
+    {
+        const auto writer =
+            solvers::HistoryWriter::create(empty, first.channels(), solvers::read_history_info(whole).about);
+        CHECK(writer.rows() == 0);
+    }
+    const Recording found =
+        Simulation(nrel5mw(), in_the_wind()).record(empty, {.duration = 0.2, .step = 0.05, .resume = true});
+    check_equal(found.history, wanted.history);
+    check_equal(solvers::read_history(empty), wanted.history);
+    const std::string none = folder / "none.h5";
+    Simulation begins(nrel5mw(), in_the_wind());
+    check_equal(begins.record(none, {.duration = 0.2, .step = 0.05, .resume = true}).history, wanted.history);
+    CHECK(has(begins.remarks(), Remark::Kind::taken, "none.h5 is not there, the run begins"));
+}
+
+TEST_CASE("simulation: of a long run few channels are read again, the file has them all", "[property]") {
+    const test::Folder folder;
+    const std::string file = folder / "run.h5";
+    const std::vector<std::string> kept{"TTDspFA", "RotSpeed", "rotor speed"};  // two: one by name and alias
+    const Recording first =
+        Simulation(nrel5mw(), in_the_wind()).record(file, {.duration = 0.2, .step = 0.05, .kept = kept});
+    REQUIRE(first.history.channels.size() == 2);
+    const Recording both = Simulation(nrel5mw(), in_the_wind())
+                               .record(file, {.duration = 0.4, .step = 0.05, .resume = true, .kept = kept});
+    const solvers::History all = solvers::read_history(file);
+    CHECK(all.channels.size() > 100);
+    CHECK(both.history.time == all.time);
+    for (const char* channel : {"TTDspFA", "RotSpeed"}) CHECK(both.history[channel] == all[channel]);
+    Simulation other(nrel5mw(), in_the_wind());
+    check_refused([&] { static_cast<void>(other.record({.duration = 0.1, .kept = {"RotSpeeds"}})); }, {"RotSpeeds"});
+}
+
 TEST_CASE("simulation: a wind with all that it has is the speed that it has", "[property]") {
     SimulationSettings options = in_the_wind();
     Simulation by_speed(nrel5mw(), options);
