@@ -9,8 +9,9 @@ usage: ./test.sh [--full] [--keep-going] [--help]
   (nothing)  format check, release build with clang, a project of its own against the installed package, by GCC, and all
              tests but the slow ones
   --full     the same, the benchmarks built as well, then each header by itself, the reference, clang-tidy, GCC's build with
-             its tests and a program of clang's, the tests under the address and undefined-behaviour sanitizers, two
-             sweeps at once under the thread sanitizer, one minute of fuzzing for each reader, and the slow tests
+             its tests and a program of clang's, the tests under the address and undefined-behaviour sanitizers, sweeps,
+             simulations and writers at once under the thread sanitizer, one minute of fuzzing for each reader, and the
+             slow tests
   --keep-going
              a step that fails does not end the run; the failed ones are named at its end
 
@@ -119,7 +120,7 @@ check_tidy() {
         { grep -Ev '[0-9]+ warnings? generated\.$' || true; }
 }
 
-check_threads() { build thread && build/thread/tests/two_sweeps; }
+check_threads() { build thread && build/thread/tests/two_sweeps && build/thread/tests/writers; }
 
 packages=("${cardan_build_packages[@]}" "${cardan_peer_packages[@]}" "${cardan_format_packages[@]}")
 if ((full)); then packages+=("${cardan_check_packages[@]}" "${cardan_reference_packages[@]}"); fi

@@ -6,8 +6,11 @@
 #include "mbs/base/error.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -23,6 +26,21 @@ int try_it(Action action) {
     } catch (const Error&) {  // is the answer to bad input
     }
     return 0;
+}
+
+/// Of what was accepted: another error than running out of memory, or a number that is not finite, is a finding.
+template <class Action>
+void must_succeed(Action action) {
+    try {
+        action();
+    } catch (const MemoryError&) {
+    } catch (const Error& error) {
+        std::fprintf(stderr, "accepted, then: %s\n", error.what());
+        std::abort();
+    }
+}
+inline void require_finite(double value) {
+    if (!std::isfinite(value)) std::abort();
 }
 
 inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {

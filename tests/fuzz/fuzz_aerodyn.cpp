@@ -1,7 +1,6 @@
 // The first byte says which of the four files of a blade the rest replaces; the others are those of tests/data.
 #include "tests/fuzz/fuzz.hpp"
 #include "turbines/readers/aerodyn.hpp"
-#include "turbines/readers/inflow_wind.hpp"
 
 #include <array>
 
@@ -15,12 +14,11 @@ constexpr std::array<const char*, 4> files{"small_AeroDyn.dat", "small_AeroDyn_B
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace cardan;
     using namespace cardan::turbines;
-    const auto read = [](const std::filesystem::path& replaced) {
+    const auto read = [](const std::filesystem::path&) {
         fuzz::try_it([] {
             const AeroDynFile air = read_aerodyn(fuzz::folder() / files[0], 1.5);
-            (void)rotor_coefficients(air.blade, 3, -0.05, 7, 0.02, air.options);
+            fuzz::require_finite(rotor_coefficients(air.blade, 3, -0.05, 7, 0.02, air.options).power);
         });
-        fuzz::try_it([&] { (void)read_inflow_wind(replaced); });
     };
     return fuzz::with_one_replaced(CARDAN_SOURCE_DIR "/tests/data/aerodyn", files, data, size, read);
 }

@@ -1,6 +1,7 @@
 // The first byte says which of the eight files of a model the rest replaces; the others are those of tests/data.
 #include "tests/fuzz/fuzz.hpp"
 #include "turbines/model/assembly.hpp"
+#include "turbines/model/description_text.hpp"
 #include "turbines/readers/openfast.hpp"
 
 #include <array>
@@ -21,6 +22,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             fuzz::try_it([&] {
                 const TurbineFile machine = read_openfast(fuzz::folder() / main);
                 (void)assemble(machine.description, {.tower_elements = 1, .blade_elements = 1});
+                fuzz::must_succeed([&] { (void)to_yaml(machine.description); });  // finite, for one
+                for (const double number : {machine.rotor_speed, machine.pitch, machine.operation.rated_power,
+                                            machine.operation.least_speed, machine.gravity})
+                    fuzz::require_finite(number);
             });
     };
     return fuzz::with_one_replaced(CARDAN_SOURCE_DIR "/tests/data/openfast", files, data, size, read);

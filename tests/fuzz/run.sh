@@ -8,7 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds="${1:-60}"
 shift || true
 targets=("$@")
-if ((${#targets[@]} == 0)); then targets=(urdf csv openfast aerodyn description windio checkpoint history); fi
+if ((${#targets[@]} == 0)); then targets=(urdf csv openfast aerodyn controller wind description windio checkpoint history diagram); fi
 
 # The first byte of a seed of `openfast` says which file it replaces, in the order of fuzz_openfast.cpp.
 seeds_of_openfast() { # <folder>
