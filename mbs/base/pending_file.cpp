@@ -103,21 +103,21 @@ std::string lock_holder(const std::string& path) {
     return answer;
 }
 
-PendingFile::PendingFile(const fs::path& given) {
-    if (given.empty()) throw FileError("(empty path)", "a file name is needed");
-    refuse_if_not_ordinary(given);
-    const fs::path path = behind_links(given);
-    path_ = path.string();
+PendingFile::PendingFile(const fs::path& path) {
+    if (path.empty()) throw FileError("(empty path)", "a file name is needed");
+    refuse_if_not_ordinary(path);
+    const fs::path target = behind_links(path);
+    path_ = target.string();
     partial_ = path_ + ".partial";
     std::error_code code;
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, code)) {
         const bool missing = !code || code == std::errc::no_such_file_or_directory;
         throw FileError(path_, missing ? text("the folder '", folder.string(), "' does not exist")
                                        : text("the folder '", folder.string(), "': ", code.message()));
     }
-    if (!path.has_filename()) throw FileError(path_, "a file name is needed");
-    if (fs::exists(path, code)) refuse_if_written(path_);
+    if (!target.has_filename()) throw FileError(path_, "a file name is needed");
+    if (fs::exists(target, code)) refuse_if_written(path_);
     while (!lock_partial()) {
     }
 }
