@@ -162,14 +162,21 @@ def main():
         faults = [f"{call}:{fault}:when={k}" for call, count in sorted(plain.calls.items())
                   for k in range(1, count + 1, options.every) for fault in FAULTS]
         came = collections.Counter()
-        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        pool = concurrent.futures.ThreadPoolExecutor(options.jobs)
+        stopped = False
+        try:
             for inject, (wrong, what) in zip(faults, pool.map(plain.fault, faults)):
                 came[what] += 1
                 for one in wrong:
                     failed += 1
                     print(f"FAILED: {name}, {inject}: {one}", flush=True)
-        print(f"{name}: {sum(plain.calls.values())} calls, {len(faults)} faults: "
+        except KeyboardInterrupt:
+            stopped = True
+        pool.shutdown(cancel_futures=True)
+        print(f"{name}: {sum(plain.calls.values())} calls, {sum(came.values())} of {len(faults)} faults: "
               + ", ".join(f"{count} {what}" for what, count in sorted(came.items())), flush=True)
+        if stopped:
+            return 130
     return 1 if failed else 0
 
 
