@@ -172,6 +172,7 @@ Wind Wind::turned(double direction, double upflow) const {
     for (SteadyWind& row : out.rows_) {
         row.direction += direction;
         row.upflow += upflow;
+        row.check();
     }
     return out;
 }

@@ -84,7 +84,7 @@ public:
 
     SteadyWind at(double time) const;
     bool is_steady() const { return rows_.size() == 1; }
-    /// With angles added to its direction and its upflow, rad.
+    /// With angles added to its direction and its upflow, rad.  @throws InputError for angles out of range
     Wind turned(double direction, double upflow) const;
     /// With heights counted from there, m.
     Wind over(double ground) const;

@@ -85,9 +85,8 @@ constexpr std::array loads{std::pair("generator power", "generator"), std::pair(
 std::vector<std::string> needed(const turbines::MachineLayout& layout, const std::vector<Channel>& channels,
                                 std::initializer_list<std::vector<solvers::HistoryPanel>> pictures) {
     std::vector<std::string> names = main_channels(layout, channels);
-    for (const char* name : {"RotSpeed", "kinetic energy", "potential energy", "dissipated energy",
-                             "energy from drives", "energy from loads", "energy error"})
-        names.emplace_back(name);
+    names.emplace_back("RotSpeed");
+    names.insert(names.end(), solvers::energy_channels.begin(), solvers::energy_channels.end());
     for (const auto& [channel, name] : loads) names.emplace_back(channel);
     for (const std::vector<solvers::HistoryPanel>& panels : pictures)
         for (const solvers::HistoryPanel& panel : panels)

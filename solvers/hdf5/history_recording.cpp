@@ -1,6 +1,7 @@
 #include "solvers/hdf5/history_recording.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -30,9 +31,7 @@ std::vector<std::size_t> columns_of(const History& names, const std::vector<std:
 
 HistoryRecording::HistoryRecording(const std::string& title, const Recorder& recorder,
                                    const std::vector<std::string>& kept, const std::filesystem::path& file)
-    : columns_(columns_of({title, recorder.channels(), {}, {}}, kept)),
-      file_(file),
-      in_memory_(file.empty() || kept.empty()) {
+    : columns_(columns_of({title, recorder.channels(), {}, {}}, kept)), file_(kept.empty() ? "" : file) {
     history_.title = title;
     history_.values.resize(columns_.size());
     for (const std::size_t column : columns_) history_.channels.push_back(recorder.channels()[column]);
@@ -53,21 +52,25 @@ HistoryRecording::HistoryRecording(const std::filesystem::path& file, const Hist
 HistoryRecording::HistoryRecording(const std::filesystem::path& file, Integrator& integrator, const Recorder& recorder,
                                    const std::vector<std::string>& kept)
     : HistoryRecording("", recorder, kept, file) {
-    if (in_memory_) history_ = read_history(file);
+    if (file_.empty()) history_ = read_history(file);
     writer_ = HistoryWriter::append_to(file, recorder.channels());
     take_checkpoints(*writer_, integrator);
-    last_time_ = writer_->last_time();
-    if (!in_memory_) return;
+    if (!file_.empty()) return;
     // What came after the checkpoint comes again.
     history_.time.resize(writer_->rows());
     for (std::vector<double>& values : history_.values) values.resize(writer_->rows());
 }
 
+// -infinity: no rows yet.
+double HistoryRecording::last_time() const {
+    if (writer_) return writer_->last_time();
+    return history_.time.empty() ? -std::numeric_limits<double>::infinity() : history_.time.back();
+}
+
 bool HistoryRecording::append(double time, const std::vector<double>& values) {
-    if (time <= last_time_) return false;
+    if (time <= last_time()) return false;
     if (writer_) writer_->append(time, values);
-    last_time_ = time;
-    if (!in_memory_) return true;
+    if (!file_.empty()) return true;
     history_.time.push_back(time);
     for (std::size_t i = 0; i < columns_.size(); ++i) history_.values[i].push_back(values[columns_[i]]);
     return true;
@@ -80,7 +83,7 @@ void HistoryRecording::close(bool complete) {
     else
         writer_->flush();
     writer_.reset();
-    if (in_memory_) return;
+    if (file_.empty()) return;
     std::vector<std::string> names;
     names.reserve(history_.channels.size());
     for (const Channel& channel : history_.channels) names.push_back(channel.name);

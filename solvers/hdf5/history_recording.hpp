@@ -5,7 +5,6 @@
 #include "solvers/hdf5/history.hpp"
 
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -48,13 +47,12 @@ public:
 private:
     HistoryRecording(const std::string& title, const Recorder& recorder, const std::vector<std::string>& kept,
                      const std::filesystem::path& file);
+    double last_time() const;
 
     History history_;
     std::vector<std::size_t> columns_;  // of the recorder, by channel of the history
-    std::filesystem::path file_;        // empty: none
-    bool in_memory_ = true;             // the rows, as they come
+    std::filesystem::path file_;        // from which the history is read at the end; empty: its rows stay in memory
     std::optional<HistoryWriter> writer_;
-    double last_time_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace cardan::solvers

@@ -5,6 +5,7 @@
 #include "solvers/signals/history.hpp"
 #include "solvers/time/integrate.hpp"
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct RecorderOptions {
     bool energies = true;        ///< "kinetic energy" ... "energy error", J; see EnergyBalance
     bool statistics = true;      ///< "steps", "rejected steps" ..., see IntegrationStatistics
 };
+
+/// Names of the channels of RecorderOptions::energies, which plot_energies() draws.
+inline constexpr std::array energy_channels{"kinetic energy",     "potential energy",  "dissipated energy",
+                                            "energy from drives", "energy from loads", "energy error"};
 
 /// Values of a fixed list of channels at the state of an integrator. Keeps a reference to its model.
 class Recorder {

@@ -3,7 +3,6 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/hdf5/campbell.hpp"
-#include "solvers/linear/problem_size.hpp"
 #include "turbines/analysis/detail/rounded.hpp"
 #include "turbines/analysis/in_unit.hpp"
 #include "turbines/analysis/prepared_machine.hpp"
@@ -121,11 +120,6 @@ solvers::Campbell over_speeds(const Machine& machine, const CampbellSettings& s,
     for (std::size_t i = 0; i < machines.size(); ++i)
         cases.push_back({&machines[i].system(), &machines[i].rotor(), s.rotor_speeds[i], 0});
     return solvers::campbell(cases, "", options);
-}
-
-// Before what is done with full matrices.
-void check_size(const Turbine& turbine) {
-    solvers::check_number_of_unknowns(turbine.rotor().machine, turbine.system().model.coordinates().free().size());
 }
 
 CampbellDiagram over_rotor_speed(const Machine& machine, CampbellSettings s) {

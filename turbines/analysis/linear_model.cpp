@@ -2,7 +2,6 @@
 
 #include "mbs/base/error.hpp"
 #include "solvers/control/multi_blade_model.hpp"
-#include "solvers/linear/problem_size.hpp"
 #include "turbines/analysis/detail/linear_forms.hpp"
 #include "turbines/analysis/linear_signals.hpp"
 #include "turbines/analysis/prepared_machine.hpp"
@@ -133,7 +132,7 @@ MachineLinearModel at_operating_point(const Machine& machine, LinearModelSetting
 solvers::LinearModel linearised(const Turbine& turbine, const LinearModelSettings& s, solvers::RotorSpin spin) {
     const double speed = *s.rotor_speed;
     // Before the equilibrium is sought, which takes long.
-    solvers::check_number_of_unknowns(turbine.rotor().machine, turbine.system().model.coordinates().free().size());
+    check_size(turbine);
     const auto about_periodic = [&] {
         return linearised_about(
             turbine, s, spin,

@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "solvers/linear/problem_size.hpp"
 #include "turbines/analysis/detail/rounded.hpp"
 #include "turbines/analysis/in_unit.hpp"
 
@@ -140,6 +141,10 @@ PreparedTurbine assembled(const Machine& machine, AssemblyOptions assembly, doub
                       {Remark::Kind::taken, text("mesh: chosen with the ", description.platform->name, " held")});
     for (const std::string& warning : turbine.warnings()) report_remark(report, {Remark::Kind::warning, warning});
     return {turbine, mesh};
+}
+
+void check_size(const Turbine& turbine) {
+    solvers::check_number_of_unknowns(turbine.rotor().machine, turbine.system().model.coordinates().free().size());
 }
 
 void keep_elements(const Mesh& mesh, MachineSettings& settings) {

@@ -27,6 +27,10 @@ struct PreparedTurbine {
 PreparedTurbine assembled(const Machine& machine, AssemblyOptions assembly, double max_hz, double rotor_speed,
                           const Report& report = {});
 
+/// Before what is done with full matrices.
+/// @throws InputError: too many coordinates for that, or none
+void check_size(const Turbine& turbine);
+
 /// The numbers of elements that were chosen become those of the settings.
 void keep_elements(const Mesh& mesh, MachineSettings& settings);
 

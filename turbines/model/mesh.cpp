@@ -63,10 +63,14 @@ struct Change {
     int modes = 0;
 };
 
-// Frequencies that are compared. Below the least a motion counts as one without stiffness, which rounding moves.
+// Frequencies that are compared.
 struct Band {
     double least_hz = 0, largest_hz = 0;
 };
+
+// Below this fraction of the largest that counts, or of the usual one, a motion counts as one without stiffness, which
+// rounding moves.
+constexpr double at_least = 1e-3;
 
 // From few to many elements.
 Change largest_change(const Frequencies& few, const Frequencies& many, const Band& band) {
@@ -120,7 +124,6 @@ MeshOptions checked(const TurbineDescription& d, const AssemblyOptions& options)
     require_not_negative("mesh", "largest frequency [Hz]", mesh.largest_hz);
     require_not_negative("mesh", "rotor speed [rad/s]", mesh.rotor_speed);
     if (mesh.most < 1) throw InputError("mesh", "most elements", mesh.most, ">= 1");
-    if (mesh.largest_hz == 0) mesh.largest_hz = usual_frequency(d, options);
     if (mesh.rotor_speed == 0) mesh.rotor_speed = d.rotor_speed;
     return mesh;
 }
@@ -128,10 +131,10 @@ MeshOptions checked(const TurbineDescription& d, const AssemblyOptions& options)
 class Search {
 public:
     Search(TurbineDescription description, const AssemblyOptions& options)
-        : description_(std::move(description)),
-          options_(options),
-          mesh_(checked(description_, options)),
-          band_{1e-3 * std::min(mesh_.largest_hz, usual_frequency(description_, options)), mesh_.largest_hz} {
+        : description_(std::move(description)), options_(options), mesh_(checked(description_, options)) {
+        const double usual = usual_frequency(description_, options);
+        if (mesh_.largest_hz == 0) mesh_.largest_hz = usual;
+        band_ = {at_least * std::min(mesh_.largest_hz, usual), mesh_.largest_hz};
         description_.source.clear();
         description_.platform.reset();  // afloat and without gravity it would capsize
         options_.gravity.setZero();

@@ -112,10 +112,10 @@ InflowWindFile read_inflow_wind(const std::filesystem::path& path, double densit
         file.fail("WindType", text("WindType = ", kind, "; allowed: 1, steady wind, or 2, uniform wind over time"));
     InflowWindFile out;
     out.wind = kind == 1 ? Wind(steady_wind(file, density)) : wind_over_time(file, density);
-    out.wind =
-        out.wind.turned(-file.number("PropagationDir") * units::degree, file.number_or("VFlowAng", 0) * units::degree);
+    const double direction = -file.number("PropagationDir") * units::degree,
+                 upflow = file.number_or("VFlowAng", 0) * units::degree;
     try {
-        for (const SteadyWind& row : out.wind.rows()) row.check();
+        out.wind = out.wind.turned(direction, upflow);
     } catch (const InputError& error) {
         file.fail("PropagationDir", text("with it and VFlowAng: ", error.what()));
     }

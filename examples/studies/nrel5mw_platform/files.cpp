@@ -2,6 +2,7 @@
 
 #include "mbs/base/pending_file.hpp"
 #include "programs/shared/simulation.hpp"
+#include "solvers/time/recorder.hpp"
 #include "turbines/model/channels.hpp"
 
 #include <iomanip>
@@ -12,8 +13,7 @@ namespace cardan::platform {
 
 namespace {
 
-const std::vector<std::string> energies{"kinetic energy",     "potential energy",  "dissipated energy",
-                                        "energy from drives", "energy from loads", "energy error"};
+const std::vector<std::string> energies(solvers::energy_channels.begin(), solvers::energy_channels.end());
 
 // Positions; those of driven coordinates are among drive_channels().
 ChannelGroup free_coordinates(const CoordinateTable& table) {
