@@ -22,8 +22,8 @@ import sys
 import tempfile
 
 root = pathlib.Path(__file__).resolve().parents[2]
-NUMBERS = ["0", "-1", "1e308", "-1e308", "1e-308", "1e20", "-1e20", "1e9", "1e6", "-5", "nan", "inf", "-inf", "1G", "0x1p3", "1,5",
-           "1e", "--1", "3.x", "", "12 13", "true", "\"x\"", "default", "99999999999999999999", "1e400"]
+NUMBERS = ["0", "-1", "1e308", "-1e308", "1e-308", "1e20", "-1e20", "1e9", "1e6", "-5", "nan", "inf", "-inf", "1G",
+           "0x1p3", "1,5", "1e", "--1", "3.x", "", "12 13", "true", "\"x\"", "default", "99999999999999999999", "1e400"]
 number = re.compile(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
 
 Model = collections.namedtuple("Model", "folder main files")

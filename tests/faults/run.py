@@ -22,8 +22,8 @@ import subprocess
 import sys
 import tempfile
 
-CALLS = ["openat", "write", "writev", "pwrite64", "rename", "renameat", "renameat2", "fsync", "fdatasync", "ftruncate", "unlink",
-         "linkat"]
+CALLS = ["openat", "write", "writev", "pwrite64", "rename", "renameat", "renameat2", "fsync", "fdatasync", "ftruncate",
+         "unlink", "linkat"]
 FAULTS = ["error=ENOSPC", "error=EIO", "error=EINTR", "signal=KILL"]
 few = ["--blade-elements", "1", "--tower-elements", "1"]
 

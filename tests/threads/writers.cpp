@@ -23,10 +23,10 @@ using namespace cardan::turbines;
 const MachineSettings few{.blade_elements = 1, .tower_elements = 1};
 
 std::string numbers(const solvers::History& history) {
-    std::ostringstream out = text_stream();
+    std::string all;
     for (const auto& row : history.values)
-        for (const double value : row) out << value << " ";
-    return out.str();
+        for (const double value : row) all += digits(value) + " ";
+    return all;
 }
 
 std::string simulation(const Machine& machine, double wind, const std::string& file) {
