@@ -28,9 +28,9 @@ public:
           dynamics_(model()),
           derivatives_(model()) {
         const Eigen::Index n = model().size();
-        q_ = Vector::LinSpaced(n, -0.005, 0.005);
-        qd_ = Vector::LinSpaced(n, -0.002, 0.002);  // the hub moves at 1 m/s by it
-        qd_(turbine_.rotor().spin) = 1.1;
+        state_.q = Vector::LinSpaced(n, -0.005, 0.005);
+        state_.qd = Vector::LinSpaced(n, -0.002, 0.002);  // the hub moves at 1 m/s by it
+        state_.qd(turbine_.rotor().spin) = 1.1;
         Q_ = qdd_ = actuator_ = Vector::Zero(n);
         by_q_ = by_qd_ = Matrix::Zero(n, n);
         new_input();
@@ -41,9 +41,9 @@ public:
         benchmark::DoNotOptimize(wrenches_.data());
     }
     void forward_dynamics() {
-        const ForceInput at = new_input();
-        turbine_.system().forces.generalised_forces(at.kinematics, 0, q_, qd_, Q_);
-        dynamics_.solve(at.kinematics, qd_, Q_, qdd_, actuator_);
+        const StateView at = new_input();
+        turbine_.system().forces.generalised_forces(at, Q_);
+        dynamics_.solve(at.kinematics, at.qd, Q_, qdd_, actuator_);
         benchmark::DoNotOptimize(qdd_.data());
     }
     void derivatives_of_air() {
@@ -51,17 +51,17 @@ public:
         benchmark::DoNotOptimize(by_q_.data());
     }
     void derivatives_of_dynamics() {
-        const ForceInput at = new_input();
-        turbine_.system().forces.derivatives(at.kinematics, 0, q_, qd_, forces_);
-        benchmark::DoNotOptimize(derivatives_.compute(at.kinematics, qd_, qdd_, &forces_));
+        const StateView at = new_input();
+        turbine_.system().forces.derivatives(at, forces_);
+        benchmark::DoNotOptimize(derivatives_.compute(at.kinematics, at.qd, qdd_, &forces_));
     }
 
 private:
     const Model& model() const { return turbine_.system().model; }
     // The structure computes the kinematics, the air finds them.
-    ForceInput input() const { return {0, q_, qd_, *kin_, no_states, no_states}; }
-    ForceInput new_input() {
-        kin_.emplace(kinematics(model(), q_, workspace_));
+    StateView input() const { return {state_, *kin_}; }
+    StateView new_input() {
+        kin_.emplace(kinematics(model(), state_.q, workspace_));
         return input();
     }
 
@@ -73,7 +73,8 @@ private:
     ForwardDynamics dynamics_;
     ForwardDynamicsDerivatives derivatives_;
     ForceDerivatives forces_;
-    Vector q_, qd_, qdd_, Q_, actuator_;
+    State state_;
+    Vector qdd_, Q_, actuator_;
     Matrix by_q_, by_qd_;
 };
 

@@ -39,7 +39,7 @@ struct Closed {
     void simbody() { peer.closed_dynamics(q.data(), qd.data(), none.data(), theirs.data()); }
     void tree() {
         const Kinematics kin = kinematics(machine.system.model, q, workspace);
-        machine.system.forces.generalised_forces(kin, 0, q, qd, Q);
+        machine.system.forces.generalised_forces({{.q = q, .qd = qd}, kin}, Q);
         forward.solve(kin, qd, Q, open, actuator);
     }
 

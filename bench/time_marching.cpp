@@ -57,7 +57,7 @@ turbines::Turbine nrel5mw(int elements) {
 }
 
 // One evaluation of kinematics, forces and forward dynamics, s.
-double forward_dynamics_time(const System& system, const solvers::DynamicState& at) {
+double forward_dynamics_time(const System& system, const DynamicState& at) {
     Workspace workspace(system.model);
     ForwardDynamics forward(system.model);
     Vector Q = at.q, qdd = at.qdd, actuator = at.actuator;
@@ -65,7 +65,7 @@ double forward_dynamics_time(const System& system, const solvers::DynamicState& 
     return bench::cpu_time_of([&] {
                for (int i = 0; i < times; ++i) {
                    const Kinematics kin = kinematics(system.model, at.q, workspace);
-                   system.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
+                   system.forces.generalised_forces({at, kin}, Q);
                    forward.solve(kin, at.qd, Q, qdd, actuator);
                    benchmark::DoNotOptimize(qdd.data());
                }
@@ -165,9 +165,9 @@ void time_marching_samples(benchmark::State& state) {
     const turbines::Turbine actuated = machine.with_forces(turbines::ActuatedForces(machine).with_inputs(torque));
     solvers::SampledController shaking{
         .name = "shaking", .inputs = {"pitch demand", "torque demand"}, .period = 0.0125};
-    shaking.update = [](const solvers::SampleInput& in, VectorOut u) {
-        u(0) = units::degree * std::sin(in.state.time);
-        u(1) = torque * (1 + 0.1 * std::sin(2 * in.state.time));
+    shaking.update = [](long /*sample*/, const DynamicView& in, VectorOut u) {
+        u(0) = units::degree * std::sin(in.time);
+        u(1) = torque * (1 + 0.1 * std::sin(2 * in.time));
     };
     Run with(actuated, 12.1, solvers::Method::dirk, {shaking}), without(actuated, 12.1, solvers::Method::dirk);
     const solvers::IntegrationStatistics before = with.integrator->statistics();

@@ -34,7 +34,7 @@ int main() try {
             Vector weights(model.size());
             const Kinematics kin = kinematics(model, q, workspace);
             inverse_dynamics<double>(kin, qd, qdd, tau.col(i));
-            system.forces.generalised_forces(kin, 0, q, qd, weights);
+            system.forces.generalised_forces({{.q = q, .qd = qd}, kin}, weights);
             tau.col(i) -= weights;
         });
         return tau;

@@ -27,7 +27,7 @@ int main() try {
     const int root = natural.unknowns.front();
     solvers::IntegrationOptions options;
     options.events = {
-        {.name = "peak", .function = [root](const ForceInput& at) { return at.qd(root); }, .direction = -1}};
+        {.name = "peak", .function = [root](const StateView& at) { return at.qd(root); }, .direction = -1}};
     solvers::Integrator integrator(beam.system, {}, 0, q, zero, options);
 
     std::printf("peak     time, s   angle, rad   decrement\n");

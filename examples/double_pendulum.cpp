@@ -34,7 +34,7 @@ int main() {
     Christoffel gamma(system.model);
     christoffel_first_kind(kin, gamma);
     Vector Q(2), qdd(2), drive_forces(2);
-    system.forces.generalised_forces(kin, 0, q, qd, Q);
+    system.forces.generalised_forces({{.q = q, .qd = qd}, kin}, Q);
     ForwardDynamics(system.model).solve(kin, qd, Q, qdd, drive_forces);
 
     const double c = std::cos(q(1)), s = std::sin(q(1)), fall = m2 * gravity * l2 * std::sin(q(0) + q(1));

@@ -33,14 +33,14 @@ int main() try {
                                   return solvers::AfterEvent::restart;
                               }};
     };
-    const auto after_5_s = [](const ForceInput& in) { return in.time - 5; };
-    const auto above = [spin](double limit) { return [=](const ForceInput& in) { return in.qd(spin) - limit; }; };
+    const auto after_5_s = [](const StateView& in) { return in.time - 5; };
+    const auto above = [spin](double limit) { return [=](const StateView& in) { return in.qd(spin) - limit; }; };
     solvers::IntegrationOptions options;
     options.events = {
         event("grid lost", 1, after_5_s, [&](double time) { machine.grid->turn(false, time); }),
         event("overspeed", 1, above(1.1 * rated), [&](double time) { machine.pitch->move_to(pi / 2, time); }),
         event("brake", -1, above(12 * units::rpm), [&](double time) { machine.brake_valve->turn(true, time); })};
-    const solvers::OperatingPoint at = start.at(0);
+    const DynamicState at = start.at(0);
     solvers::Integrator integrator(system, {}, 0, at.q, at.qd, options);
     solvers::Recorder recorder(integrator, machine.channels);
     auto file = solvers::HistoryWriter::create("emergency_stop.h5", recorder.channels(),

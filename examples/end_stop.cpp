@@ -25,8 +25,8 @@ int main() try {
     solvers::IntegrationOptions options;
     options.tolerances = {1e-10, 1e-10, 1e-10, 1e-10, 1e-10};
     options.events = {
-        {.name = "deepest", .function = [](const ForceInput& at) { return at.qd(0); }, .direction = -1},
-        {.name = "free again", .function = [](const ForceInput& at) { return at.q(0) - limit; }, .direction = -1}};
+        {.name = "deepest", .function = [](const StateView& at) { return at.qd(0); }, .direction = -1},
+        {.name = "free again", .function = [](const StateView& at) { return at.q(0) - limit; }, .direction = -1}};
     std::printf("speed, rad/s   depth, rad   closed form   speed afterwards   energy error, J\n");
     for (const double speed : {0.1, 0.5, 1.5, 5.0}) {
         solvers::Integrator run(system, {}, 0, Vector{{0.0}}, Vector{{speed}}, options);

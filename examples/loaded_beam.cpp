@@ -44,7 +44,7 @@ int main() try {
         Workspace workspace(system.model);
         const Kinematics kin = kinematics(system.model, rest.at.q, workspace);
         const Pose<double> tip = pose(kin, beam.tip());
-        const JointLoads loads = joint_loads(kin, system.forces, rest.at.qd, rest.at.qdd);
+        const JointLoads loads = joint_loads({rest.at, kin}, system.forces, rest.at.qdd);
         const Vec6 root = equilibrium_loads(beam, kin, system.forces, loads, 0).values;  // N, Vy, Vz, T, My, Mz
         std::printf("%-11s %20.4f %12.4f %20.4f %12.4f %20.4f %12.4f\n", load.name, 1e6 * tip.p.z(),
                     1e6 * load.deflection, 1e6 * std::atan2(tip.R(2, 0), tip.R(0, 0)), 1e6 * load.turn, -root(4),

@@ -29,15 +29,15 @@ int main() try {
     Vector Q(2), qdd(2), drive_forces(2);
     ForceDerivatives by_q;
     const auto rates = [&](const Matrix& x) {  // the first column of x is (q, q'), the others are P
-        const Vector q = x.col(0).head(2), qd = x.col(0).tail(2);
-        const Kinematics kin = kinematics(system.model, q, workspace);
-        system.forces.generalised_forces(kin, 0, q, qd, Q);
-        system.forces.derivatives(kin, 0, q, qd, by_q);
-        dynamics.solve(kin, qd, Q, qdd, drive_forces);
-        if (!derivatives.compute(kin, qd, qdd, &by_q)) throw NumericalError("the metric is not positive definite");
+        const State at{.q = x.col(0).head(2), .qd = x.col(0).tail(2)};
+        const Kinematics kin = kinematics(system.model, at.q, workspace);
+        system.forces.generalised_forces({at, kin}, Q);
+        system.forces.derivatives({at, kin}, by_q);
+        dynamics.solve(kin, at.qd, Q, qdd, drive_forces);
+        if (!derivatives.compute(kin, at.qd, qdd, &by_q)) throw NumericalError("the metric is not positive definite");
         const Matrix by_x =
             derivatives.dqdd_dq() * x.topRightCorner(2, 4) + derivatives.dqdd_dqd() * x.bottomRightCorner(2, 4);
-        return (Matrix(4, 5) << qd, x.bottomRightCorner(2, 4), qdd, by_x).finished();
+        return (Matrix(4, 5) << at.qd, x.bottomRightCorner(2, 4), qdd, by_x).finished();
     };
     constexpr double h = 1e-3, lower = 0.5, apart = 1e-7;  // s, rad, of the upper angle
     Matrix first = (Matrix(4, 5) << Vector{{2, lower, 0, 0}}, Matrix::Identity(4, 4)).finished(), second = first;

@@ -16,11 +16,11 @@ int main() {
 
     UserForce spring;
     spring.name = "hardening spring";
-    spring.force = [](const ForceInput& at, VectorOut Q) { Q(0) += -k * at.q(0) - c * std::pow(at.q(0), 3); };
-    spring.jacobian = [](const ForceInput& at, MatrixOut dQ_dq, const MatrixOut&) {
+    spring.force = [](const StateView& at, VectorOut Q) { Q(0) += -k * at.q(0) - c * std::pow(at.q(0), 3); };
+    spring.jacobian = [](const StateView& at, MatrixOut dQ_dq, const MatrixOut&) {
         dQ_dq(0, 0) += -k - 3 * c * at.q(0) * at.q(0);
     };
-    spring.energy = [](const ForceInput& at) { return k * std::pow(at.q(0), 2) / 2 + c * std::pow(at.q(0), 4) / 4; };
+    spring.energy = [](const StateView& at) { return k * std::pow(at.q(0), 2) / 2 + c * std::pow(at.q(0), 4) / 4; };
     spring.elastic = true;
     ForceSet forces;
     forces.add_user(spring);
@@ -29,7 +29,7 @@ int main() {
     // Let go at the amplitude; it comes back after a period, when its speed falls through zero.
     solvers::IntegrationOptions options;
     options.tolerances.relative = 1e-9;
-    options.events = {{.name = "back", .function = [](const ForceInput& at) { return at.qd(0); }, .direction = -1}};
+    options.events = {{.name = "back", .function = [](const StateView& at) { return at.qd(0); }, .direction = -1}};
     std::printf("amplitude    period computed   closed form   (m, s)   error of energy, J\n");
     for (const double amplitude : {0.01, 0.3, 1.0}) {
         solvers::Integrator integrator(system, {}, 0, Vector{{amplitude}}, Vector{{0.0}}, options);

@@ -31,7 +31,7 @@ int main() {
     const Vector zero = Vector::Zero(1);
     std::printf("eigenvalue, 1/s          residual of the cubic   share of the state\n");
     for (const solvers::Mode& mode :
-         solvers::modes(solvers::restrict_to(solvers::linearise(system, {zero, zero, zero}), {0}))) {
+         solvers::modes(solvers::restrict_to(solvers::linearise(system, at_rest(zero)), {0}))) {
         const Complex L = mode.eigenvalue, rest = (mass * L * L + k0) * (L + k / c) + k * L;
         std::printf("%9.5f %+9.5f i %23.1e %20.3f %s\n", L.real(), L.imag(), std::abs(rest), mode.state_share,
                     mode.is_state_motion() ? " a motion of the state" : " a vibration");

@@ -32,7 +32,7 @@ int main() try {
     Workspace workspace(system.model);
     const Kinematics kin = kinematics(system.model, q, workspace);
     Vector Q = zero;
-    system.forces.generalised_forces(kin, 0, q, zero, Q);
+    system.forces.generalised_forces({{.q = q, .qd = zero}, kin}, Q);
     std::printf("%s, %.2f kg move\n\ndrive           torque   by levers   (N m)\n", robot.robot_name.c_str(),
                 system.model.mass());
     for (int a = 0; a < system.model.size(); ++a)
@@ -40,7 +40,7 @@ int main() try {
                     -moment_of_weights(kin, a));
 
     std::printf("\nmodes, Hz    ");
-    const solvers::Linearisation linear = solvers::linearise(system, {q, zero, zero});
+    const solvers::Linearisation linear = solvers::linearise(system, at_rest(q));
     for (const solvers::Mode& mode : solvers::modes(solvers::restrict_to(linear, system.model.coordinates().free())))
         std::printf(" %8.2f", mode.natural_hz());
     std::printf("\n");

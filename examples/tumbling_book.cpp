@@ -40,7 +40,7 @@ int main() try {
     for (int n = 0; n <= 4; ++n) {
         require_result(motion.advance(n * half));
         const System& system = motion.system();
-        const solvers::DynamicState& now = motion.integrator().state();
+        const DynamicState& now = motion.integrator().state();
         Workspace workspace(system.model);
         const Kinematics kin = kinematics(system.model, now.q, workspace);
         const FrameId frame = system.model.frame("book");

@@ -213,7 +213,7 @@ Vector hinge_forces(const HingeLaw& law, const HingeLawElement& element, const V
 
 UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vector<HingeLawElement> elements) {
     // Calls f(indices in the model, response) for every element.
-    const auto each = [law, elements = std::move(elements)](const ForceInput& at, const auto& f) {
+    const auto each = [law, elements = std::move(elements)](const StateView& at, const auto& f) {
         const Model& model = at.kinematics.model();
         for (const HingeLawElement& element : elements) {
             const auto n = std::ssize(element.bodies);
@@ -229,19 +229,19 @@ UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vec
     UserForce force;
     force.name = name;
     force.elastic = true;
-    force.force = [each](const ForceInput& at, VectorOut Q) {
+    force.force = [each](const StateView& at, VectorOut Q) {
         each(at, [&](const std::array<int, 6>& index, const Response& r) {
             for (Eigen::Index i = 0; i < r.force.size(); ++i) Q(entry(index, i)) -= r.force(i);
         });
     };
-    force.jacobian = [each](const ForceInput& at, MatrixOut dQ_dq, const MatrixOut&) {
+    force.jacobian = [each](const StateView& at, MatrixOut dQ_dq, const MatrixOut&) {
         each(at, [&](const std::array<int, 6>& index, const Response& r) {
             for (Eigen::Index i = 0; i < r.force.size(); ++i)
                 for (Eigen::Index j = 0; j < r.force.size(); ++j)
                     dQ_dq(entry(index, i), entry(index, j)) -= r.stiffness(i, j);
         });
     };
-    force.energy = [each](const ForceInput& at) {
+    force.energy = [each](const StateView& at) {
         double sum = 0;
         each(at, [&](const std::array<int, 6>&, const Response& r) { sum += r.energy; });
         return sum;

@@ -274,7 +274,7 @@ ChannelGroup Circuit::channels() const {
                                   .units = "1",
                                   .long_name = text("generalised force of circuit '", options_.name,
                                                     "' on its coordinate ", k, ", N m or N")});
-    group.sample = [own = build()](const ChannelInput& in, double* values) {
+    group.sample = [own = build()](const DynamicView& in, double* values) {
         const detail::ElementValues at(own.element, in);
         const Vector currents = own.equations->branch_currents(at.input());
         const detail::CircuitEquations::Column forces = own.equations->forces(at.input());

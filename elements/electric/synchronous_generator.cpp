@@ -191,7 +191,7 @@ ChannelGroup synchronous_generator_channels(const SynchronousGenerator& generato
         .name = generator.name, .states = synchronous_generator(generator).states, .coordinates = {generator.shaft}};
     const auto functions = std::make_shared<const detail::LawFunctions<SynchronousLaw>>(
         law_of(generator), std::vector{generator.torque}, seen);
-    group.sample = [functions, seen = std::move(seen)](const ChannelInput& in, double* values) {
+    group.sample = [functions, seen = std::move(seen)](const DynamicView& in, double* values) {
         const detail::ElementValues own_values(seen, in);
         const StateInput input = own_values.input();
         const auto x = functions->values<double>(input);

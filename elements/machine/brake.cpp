@@ -42,7 +42,7 @@ ChannelGroup brake_channels(const Brake& brake) {
                        .frame = "axis of the brake disc",
                        .alias = brake.alias},
                       {.name = brake.name + " power", .units = "W", .long_name = "heat that the brake makes"}};
-    group.sample = [brake](const ChannelInput& in, double* values) {
+    group.sample = [brake](const DynamicView& in, double* values) {
         const double rate = in.qd(in.kinematics.model().index(brake.shaft));
         values[0] = brake.torque(in.time, rate);
         values[1] = brake.power(in.time, rate);

@@ -82,7 +82,7 @@ ChannelGroup drive_channels(const ElasticDrive& drive, const std::string& units)
          .long_name = "force of the drive along its coordinate",
          .frame = "axis of " + drive.name},
         {.name = drive.name + " power", .units = "W", .long_name = "power of the drive less the heat of its damper"}};
-    group.sample = [drive](const ChannelInput& in, double* values) {
+    group.sample = [drive](const DynamicView& in, double* values) {
         const int i = in.kinematics.model().index(drive.coordinate);
         values[0] = drive.command->at(in.time).position;
         values[1] = drive.force(in.time, in.q(i), in.qd(i));

@@ -54,7 +54,7 @@ ChannelGroup generator_channels(const Generator& generator) {
                       {.name = generator.name + " power",
                        .units = "W",
                        .long_name = "power that the generator takes from its shaft, losses not counted"}};
-    group.sample = [generator](const ChannelInput& in, double* values) {
+    group.sample = [generator](const DynamicView& in, double* values) {
         const double rate = in.qd(in.kinematics.model().index(generator.shaft));
         values[0] = generator.torque(rate);
         values[1] = generator.power(rate);

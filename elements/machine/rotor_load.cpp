@@ -72,7 +72,7 @@ void RotorCurve::check(std::string_view where) const {
     if (blades < 1) throw InputError(where, "number of blades", blades, ">= 1");
 }
 
-RotorCurve::Value RotorLoad::value(const ForceInput& in) const {
+RotorCurve::Value RotorLoad::value(const StateView& in) const {
     const Model& model = in.kinematics.model();
     const double psi = angle(azimuth, model, in.q), speed = angle(azimuth, model, in.qd),
                  feather = pitch_setting + angle(pitch, model, in.q);
@@ -83,7 +83,7 @@ RotorCurve::Value RotorLoad::value(const ForceInput& in) const {
     return curve.at(V, psi, speed, feather);
 }
 
-Wrench RotorLoad::wrench(const ForceInput& in) const {
+Wrench RotorLoad::wrench(const StateView& in) const {
     const RotorCurve::Value v = value(in);
     const Vec3 axis = pose(in.kinematics, hub).R.col(2);
     return {v.thrust * axis, v.torque * axis};
@@ -91,7 +91,7 @@ Wrench RotorLoad::wrench(const ForceInput& in) const {
 
 namespace {
 
-void add_force(const RotorLoad& load, const ForceInput& in, VectorOut& Q) {
+void add_force(const RotorLoad& load, const StateView& in, VectorOut& Q) {
     const RotorCurve::Value v = load.value(in);
     const Pose<double> hub = pose(in.kinematics, load.hub);
     const Vec3 axis = hub.R.col(2);
@@ -103,7 +103,7 @@ void add_force(const RotorLoad& load, const ForceInput& in, VectorOut& Q) {
 }
 
 // The change of the wrench as it stands, turned with the hub, upon axes that turn: as for any follower load.
-void add_stiffness_of_axes(const RotorLoad& load, const ForceInput& in, const RotorCurve::Value& v, MatrixOut dQ_dq) {
+void add_stiffness_of_axes(const RotorLoad& load, const StateView& in, const RotorCurve::Value& v, MatrixOut dQ_dq) {
     const Pose<double> hub = pose(in.kinematics, load.hub);
     const Vec3 force = v.thrust * hub.R.col(2), moment = v.torque * hub.R.col(2);
     const Model& model = in.kinematics.model();
@@ -118,7 +118,7 @@ void add_stiffness_of_axes(const RotorLoad& load, const ForceInput& in, const Ro
         }
 }
 
-void add_jacobian(const RotorLoad& load, const ForceInput& in, MatrixOut& dQ_dq, MatrixOut& dQ_dqd) {
+void add_jacobian(const RotorLoad& load, const StateView& in, MatrixOut& dQ_dq, MatrixOut& dQ_dqd) {
     const RotorCurve::Value v = load.value(in);
     add_stiffness_of_axes(load, in, v, dQ_dq);
     const Pose<double> hub = pose(in.kinematics, load.hub);
@@ -146,8 +146,8 @@ UserForce rotor_load_force(const RotorLoad& load) {
     const auto shared = std::make_shared<const RotorLoad>(load);
     UserForce force;
     force.name = load.name;
-    force.force = [shared](const ForceInput& in, VectorOut Q) { add_force(*shared, in, Q); };
-    force.jacobian = [shared](const ForceInput& in, MatrixOut dQ_dq, MatrixOut dQ_dqd) {
+    force.force = [shared](const StateView& in, VectorOut Q) { add_force(*shared, in, Q); };
+    force.jacobian = [shared](const StateView& in, MatrixOut dQ_dq, MatrixOut dQ_dqd) {
         add_jacobian(*shared, in, dQ_dq, dQ_dqd);
     };
     return force;
@@ -167,9 +167,8 @@ ChannelGroup rotor_load_channels(const RotorLoad& load) {
     if (load.wind)
         group.channels.push_back(
             {.name = "wind speed", .units = "m s-1", .long_name = "wind speed of the prescribed rotor load"});
-    group.sample = [load](const ChannelInput& in, double* values) {
-        const ForceInput at{in.time, in.q, in.qd, in.kinematics, in.s, in.u};
-        const RotorCurve::Value v = load.value(at);
+    group.sample = [load](const DynamicView& in, double* values) {
+        const RotorCurve::Value v = load.value(in);
         values[0] = v.torque;
         values[1] = v.thrust;
         values[2] = v.torque * angle(load.azimuth, in.kinematics.model(), in.qd);

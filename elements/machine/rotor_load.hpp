@@ -60,9 +60,9 @@ struct RotorLoad {
     /// In the place of curve and wind: any torque and thrust with their derivatives.
     std::function<RotorCurve::Value(double time, double azimuth, double speed, double pitch)> law = {};
 
-    RotorCurve::Value value(const ForceInput& in) const;
+    RotorCurve::Value value(const StateView& in) const;
     /// Force and moment at the hub frame's origin, base axes.
-    Wrench wrench(const ForceInput& in) const;
+    Wrench wrench(const StateView& in) const;
 };
 
 /// The load as a follower wrench on the hub. Exact Jacobian with respect to all coordinates that move the hub.

@@ -31,14 +31,14 @@ Impact impact(double av, double exponent) {
     solvers::IntegrationOptions options;
     options.tolerances = {1e-11, 1e-14, 1e-14, 1e-12, 1e-12};
     options.events = {{.name = "deepest",
-                       .function = [](const ForceInput& at) { return at.qd(0); },
+                       .function = [](const StateView& at) { return at.qd(0); },
                        .direction = 1,
                        .action =
                            [&](solvers::Integrator& run) {
                                out.depth = -run.state().q(0);
                                return solvers::AfterEvent::proceed;
                            }},
-                      {.name = "apart", .function = [](const ForceInput& at) { return at.q(0); }, .direction = 1}};
+                      {.name = "apart", .function = [](const StateView& at) { return at.q(0); }, .direction = 1}};
     solvers::Integrator run(system, {}, 0, Vector{{0.0}}, Vector{{-speed}}, options);
     const solvers::Advance end = run.advance(10);
     require_result(end);

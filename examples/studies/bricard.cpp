@@ -50,7 +50,7 @@ int main() try {
     options.tolerances = {1e-9, 1e-10, 1e-10, 1e-10, 1e-10};
     std::vector<double> rests;
     options.events.push_back({.name = "at rest",
-                              .function = [](const ForceInput& at) { return at.qd(0); },
+                              .function = [](const StateView& at) { return at.qd(0); },
                               .action =
                                   [&](solvers::Integrator& run) {
                                       rests.push_back(run.time());
@@ -61,7 +61,7 @@ int main() try {
     for (const char axis : {'x', 'y', 'z'})
         place.channels.push_back(
             {.name = text("P2 ", axis), .units = "m", .long_name = text(axis, " of the point P2")});
-    place.sample = [P2 = system.model.frame("P2")](const ChannelInput& in, double* values) {
+    place.sample = [P2 = system.model.frame("P2")](const DynamicView& in, double* values) {
         const Vec3 p = pose(in.kinematics, P2).p;
         std::copy_n(p.data(), 3, values);
     };

@@ -13,8 +13,7 @@
 namespace cardan::program {
 
 /// Of all coordinates, the spin among them, linearised about a steady rotation.
-inline solvers::SecondOrderSystem multi_blade_system(const turbines::Turbine& turbine,
-                                                     const solvers::OperatingPoint& at) {
+inline solvers::SecondOrderSystem multi_blade_system(const turbines::Turbine& turbine, const DynamicState& at) {
     const int spin = turbine.rotor().spin;
     std::vector<int> all(static_cast<std::size_t>(turbine.system().model.size()));
     std::iota(all.begin(), all.end(), 0);

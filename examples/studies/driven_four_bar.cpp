@@ -72,9 +72,9 @@ ChannelGroup joint_forces(const CoordinateTable& table) {
             group.channels.push_back({.name = text(joint, axis), .units = "N", .long_name = "force of the joint"});
     group.channels.push_back({.name = "M", .units = "N m", .long_name = "torque of the drive"});
     group.sample = [crank = table.index("crank"), coupler = table.index("coupler"), rocker = table.index("rocker")](
-                       const ChannelInput& in, double* values) {
-        const auto of_joint = [&](int coordinate) { return entry(in.loads.joint, coordinate).force; };
-        const Vec3 at_B = in.loads.loops.front().force;
+                       const DynamicView& in, double* values) {
+        const auto of_joint = [&](int coordinate) { return entry(in.loads().joint, coordinate).force; };
+        const Vec3 at_B = in.loads().loops.front().force;
         for (const Vec3& force : {of_joint(crank), of_joint(coupler), at_B, of_joint(rocker)})
             for (const int axis : {0, 1}) *values++ = force(axis);
         *values = in.actuator(crank);

@@ -54,7 +54,7 @@ int main() try {
     solvers::Integrator run(system, {}, 0, q, qd);
     ChannelGroup bend{
         {{.name = "bending", .units = "m", .long_name = "middle of the rod off the line through its pins"}}, {}};
-    bend.sample = [&](const ChannelInput& in, double* value) {
+    bend.sample = [&](const DynamicView& in, double* value) {
         const Vec3 from = pose(in.kinematics, model.frame("beam node 0")).p,
                    along = (pose(in.kinematics, model.frame("beam node 8")).p - from).normalized();
         *value = cross<double>(along, pose(in.kinematics, model.frame("beam node 4")).p - from).z();

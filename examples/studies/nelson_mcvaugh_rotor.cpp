@@ -20,7 +20,7 @@ constexpr std::size_t whirls = 6;
 // The lowest whirl speeds, rad/s: in fixed axes the equations are constant whatever the bearings.
 std::vector<double> whirls_at(const nelson_mcvaugh::Rotor& rotor, double speed) {
     const Eigen::Index n = rotor.system.model.size();
-    solvers::OperatingPoint at{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n)};
+    DynamicState at = at_rest(n);
     at.qd(rotor.map.spin) = speed;  // no loads: the straight shaft is in equilibrium
     const solvers::SecondOrderSystem turning =
         solvers::restrict_to(solvers::linearise(rotor.system, at), rotor.unknowns);

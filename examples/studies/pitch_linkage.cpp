@@ -52,7 +52,7 @@ solvers::SteadyState equilibrium(double stroke, double moment, const Vector& nea
 }
 
 // Of the blade's angle, the actuator's place being free to yield.
-double stiffness_at_blade(const System& system, const solvers::OperatingPoint& at) {
+double stiffness_at_blade(const System& system, const DynamicState& at) {
     const Matrix K = solvers::linearise(system, at).stiffness();
     return K(0, 0) - K(0, 1) * K(1, 0) / K(1, 1);
 }

@@ -45,7 +45,7 @@ Cycle motion(const Case& one, solvers::History& history) {
     solvers::IntegrationOptions options;
     options.tolerances = {1e-9, 1e-11, 1e-11, 1e-10, 1e-10};
     options.events = solvers::stick_slip(system, {friction}, {}, 0, q, qd);
-    const auto rate = [](const ForceInput& at) { return at.qd(0); };
+    const auto rate = [](const StateView& at) { return at.qd(0); };
     options.events.push_back({"top", rate, -1, [&](solvers::Integrator& run) {
                                   cycle.tops.push_back(run.time());
                                   cycle.highest.push_back(run.state().q(0));
@@ -57,7 +57,7 @@ Cycle motion(const Case& one, solvers::History& history) {
                               }});
     solvers::Integrator run(system, {}, 0, q, qd, options);
     ChannelGroup force{{{.name = "friction", .units = "N", .long_name = "on the mass, forward"}}, {}};
-    force.sample = [&](const ChannelInput& in, double* value) {
+    force.sample = [&](const DynamicView& in, double* value) {
         *value = in.qdd(0) + one.damping * in.qd(0) + stiffness * in.q(0);
     };
     solvers::Recorder recorder(run, {force});

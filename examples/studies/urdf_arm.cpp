@@ -80,7 +80,7 @@ struct Held {
             at.push_back(system.model.index(entry(bodies, i)));
             q(at.back()) = drives.q(i);
         }
-        linear = solvers::linearise(system, {q, Vector::Zero(n), Vector::Zero(n), 0});
+        linear = solvers::linearise(system, at_rest(q));
     }
     static ForceSet with_drives(ForceSet forces, const std::vector<BodyId>& bodies, const Drives& drives) {
         for (Eigen::Index i = 0; i < std::ssize(bodies); ++i)

@@ -147,7 +147,7 @@ int run(const Arguments& a) {
         forces.add_spring(table[at].name + " spring", BodyId{i}, stiffness(at), 0, q(at));
     }
     const System system(robot.tree, forces);
-    const solvers::Linearisation linear = solvers::linearise(system, {q, zero, zero, 0});
+    const solvers::Linearisation linear = solvers::linearise(system, at_rest(q));
     print_metric(linear.mass, table);
     std::vector<int> all(static_cast<std::size_t>(model.size()));
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);

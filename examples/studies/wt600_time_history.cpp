@@ -119,7 +119,7 @@ std::vector<solvers::Event> events(const turbines::Wt600Operation& machine, doub
     solvers::Event connect;
     connect.name = "synchronous speed";
     connect.direction = 1;
-    connect.function = [=](const ForceInput& in) { return in.qd(spin) - synchronous; };
+    connect.function = [=](const StateView& in) { return in.qd(spin) - synchronous; };
     connect.action = [grid = machine.grid, &connected_at](solvers::Integrator& integrator) {
         if (grid->is_on()) return solvers::AfterEvent::proceed;
         connected_at = integrator.time();

@@ -2,7 +2,7 @@
 /// Quantities that can be recorded during a motion: names, units, and how they follow from the state.
 #pragma once
 
-#include "mbs/system/joint_loads.hpp"
+#include "mbs/system/dynamic_view.hpp"
 
 #include <functional>
 #include <string>
@@ -20,22 +20,11 @@ struct Channel {
     std::string alias = {};  ///< name of the channel in OpenFAST, e.g. "RootMyb1"; empty: it has none
 };
 
-/// A state and everything derived from it.
-struct ChannelInput {
-    double time;
-    const Vector &q, &qd, &qdd;
-    const Vector& actuator;  ///< generalised forces of the drives on their coordinates, N m or N
-    const Kinematics& kinematics;
-    const Forces& forces;
-    const JointLoads& loads;       ///< motion and joint loads of all bodies
-    const Vector &s, &s_rate, &u;  ///< states beside the coordinates, their rates, inputs
-};
-
 /// Channels that are computed together.
 struct ChannelGroup {
     std::vector<Channel> channels;
     /// @param values  out, one per channel
-    std::function<void(const ChannelInput&, double* values)> sample;
+    std::function<void(const DynamicView&, double* values)> sample;
 };
 
 }  // namespace cardan

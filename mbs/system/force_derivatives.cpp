@@ -11,20 +11,23 @@ namespace {
 // Central differences of a force, at a workspace of its own: the caller's kinematics must stay valid.
 // @param add  the force: add(at, Q)
 template <class Add>
-void difference(const Add& add, const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
+void difference(const Add& add, const StateView& at, MatrixOut by_q, MatrixOut by_qd) {
     constexpr double step = 1e-6;
     const Eigen::Index n = at.q.size();
     const Model& model = at.kinematics.model();
     Workspace own(model);
-    const auto force = [&](const Vector& q, const Vector& qd) {
+    State moved = at.state();
+    const auto force = [&](double& value, double change) {
+        const double middle = value;
+        value += change;
         Vector Q = Vector::Zero(n);
-        add({at.time, q, qd, kinematics(model, q, own), at.s, at.u}, Q);
+        add({moved, kinematics(model, moved.q, own)}, Q);
+        value = middle;
         return Q;
     };
     for (Eigen::Index j = 0; j < n; ++j) {
-        const Vector d = step * Vector::Unit(n, j);
-        by_q.col(j) = (force(at.q + d, at.qd) - force(at.q - d, at.qd)) / (2 * step);
-        by_qd.col(j) = (force(at.q, at.qd + d) - force(at.q, at.qd - d)) / (2 * step);
+        by_q.col(j) = (force(moved.q(j), step) - force(moved.q(j), -step)) / (2 * step);
+        by_qd.col(j) = (force(moved.qd(j), step) - force(moved.qd(j), -step)) / (2 * step);
     }
 }
 
@@ -97,14 +100,14 @@ void Forces::wrench_stiffness(const FrameLoad& load, const Kinematics& kin, doub
     }
 }
 
-void Forces::user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const {
+void Forces::user_derivatives(const User& user, const StateView& at, ForceDerivatives& out) const {
     subtract(user.own.jacobian, user.own.force, user.factor, at, user.own.elastic ? out.elastic : out.loads,
              out.damping);
 }
 
-void Forces::field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const {
+void Forces::field_derivatives(const Field& field, const StateView& at, ForceDerivatives& out) const {
     Vector none;
-    const auto add = [&](const ForceInput& input, VectorOut Q) { add_field(field, 1, field.input(input), Q, none); };
+    const auto add = [&](const StateView& input, VectorOut Q) { add_field(field, 1, field.input(input), Q, none); };
     subtract(field.own.jacobian, add, field.factor, field.input(at), field.own.elastic ? out.elastic : out.loads,
              out.damping);
 }
@@ -124,33 +127,33 @@ void difference_field(const Evaluate& evaluate, const FieldInput& at, const std:
     constexpr double step = 1e-6;
     const Eigen::Index n = at.q.size(), m = at.own.size();
     Workspace workspace(at.kinematics.model());
-    const auto values = [&](const Vector& q, const Vector& qd, const Vector& s) {
+    State moved = at.state();
+    Vector s = at.own;
+    const auto values = [&](double& value, double change) {
+        const double middle = value;
+        value += change;
         Vector all = Vector::Zero(n + m);
-        const Kinematics kin = kinematics(at.kinematics.model(), q, workspace);
-        evaluate(FieldInput({at.time, q, qd, kin, at.s, at.u}, s, at.own_inputs), all);
+        const StateView now(moved, kinematics(at.kinematics.model(), moved.q, workspace));
+        evaluate(FieldInput(now, s, at.own_inputs), all);
+        value = middle;
         return all;
     };
-    const auto add = [&](const Vector& above, const Vector& below, double h, auto Q, auto f) {
-        Q += (above - below).head(n) / (2 * h);
-        f += (above - below).tail(m) / (2 * h);
+    const auto add = [&](double& value, double h, auto Q, auto f) {
+        const Vector slope = (values(value, h) - values(value, -h)) / (2 * h);
+        Q += slope.head(n);
+        f += slope.tail(m);
     };
-    const Vector s = at.own;
     for (Eigen::Index j = 0; j < n; ++j) {
-        const Vector d = step * Vector::Unit(n, j);
-        add(values(at.q + d, at.qd, s), values(at.q - d, at.qd, s), step, out.Q_q.col(j), out.f_q.col(j));
-        add(values(at.q, at.qd + d, s), values(at.q, at.qd - d, s), step, out.Q_qd.col(j), out.f_qd.col(j));
+        add(moved.q(j), step, out.Q_q.col(j), out.f_q.col(j));
+        add(moved.qd(j), step, out.Q_qd.col(j), out.f_qd.col(j));
     }
-    for (Eigen::Index j = 0; j < m; ++j) {
-        const double h = step * entry(states, j).scale;
-        const Vector d = h * Vector::Unit(m, j);
-        add(values(at.q, at.qd, s + d), values(at.q, at.qd, s - d), h, out.Q_s.col(j), out.f_s.col(j));
-    }
+    for (Eigen::Index j = 0; j < m; ++j) add(s(j), step * entry(states, j).scale, out.Q_s.col(j), out.f_s.col(j));
 }
 
 }  // namespace
 
-void Forces::state_field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out,
-                                     StateDerivatives& states) const {
+void Forces::state_field_derivatives(const Field& field, const StateView& at, ForceDerivatives& out) const {
+    StateDerivatives& states = out.states;
     const Eigen::Index n = at.q.size(), m = field.states(), first = field.first;
     Borrowed<FieldMemory> own;
     own->Q_q.setZero(n, n);
@@ -177,16 +180,16 @@ void Forces::state_field_derivatives(const Field& field, const ForceInput& at, F
 }
 
 // Central differences.
-void Forces::input_derivatives(const Field& field, const ForceInput& at, StateDerivatives& out) const {
+void Forces::input_derivatives(const Field& field, const StateView& at, StateDerivatives& out) const {
     constexpr double step = 1e-4;
     const Eigen::Index n = at.q.size(), m = field.states();
-    Vector u = at.u;
+    State moved = at.state();
     const auto values = [&](int input, double change) {
-        u(input) = at.u(input) + change;
+        moved.u(input) = at.u(input) + change;
         Vector all = Vector::Zero(n + m);
         VectorOut Q = all.head(n);
-        add_field(field, field.factor, field.input({at.time, at.q, at.qd, at.kinematics, at.s, u}), Q, all.tail(m));
-        u(input) = at.u(input);
+        add_field(field, field.factor, field.input({moved, at.kinematics}), Q, all.tail(m));
+        moved.u(input) = at.u(input);
         return all;
     };
     for (const int input : field.inputs) {
@@ -197,21 +200,7 @@ void Forces::input_derivatives(const Field& field, const ForceInput& at, StateDe
     }
 }
 
-void Forces::derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
-                         ForceDerivatives& out) const {
-    require_no_states("forces");
-    mechanical_derivatives({time, q, qd, kin, no_states, no_states}, out);
-}
-
-void Forces::derivatives(const ForceInput& at, ForceDerivatives& out, StateDerivatives& states) const {
-    mechanical_derivatives(at, out);
-    states_.derivatives({at.time, at.q, at.qd, at.s, at.u}, out.loads, out.damping, states);
-    for (const Field& field : fields_)
-        if (field.states() > 0) state_field_derivatives(field, at, out, states);
-    for (const Field& field : fields_) input_derivatives(field, at, states);
-}
-
-void Forces::mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const {
+void Forces::derivatives(const StateView& at, ForceDerivatives& out) const {
     const Kinematics& kin = at.kinematics;
     require_state<double>(kin, at.q, at.qd);
     const Eigen::Index n = at.q.size();
@@ -227,6 +216,10 @@ void Forces::mechanical_derivatives(const ForceInput& at, ForceDerivatives& out)
     for (const User& user : users_) user_derivatives(user, at, out);
     for (const Field& field : fields_)
         if (field.states() == 0) field_derivatives(field, at, out);
+    states_.derivatives(at, out.loads, out.damping, out.states);
+    for (const Field& field : fields_)
+        if (field.states() > 0) state_field_derivatives(field, at, out);
+    for (const Field& field : fields_) input_derivatives(field, at, out.states);
 }
 
 }  // namespace cardan

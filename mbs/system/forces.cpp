@@ -112,20 +112,16 @@ void Forces::generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT
     for (const FrameLoad& load : loads_) add_wrench<S>(load, kin, time, Q);
 }
 
-void Forces::generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
-                                VectorOut Q) const {
+void Forces::generalised_forces(const StateView& at, VectorOut Q) const {
     require_no_states("forces");
-    generalised_forces_of_elements<double>(kin, q, qd, Q, time);
-    const ForceInput at{time, q, qd, kin, no_states, no_states};
     Vector none;
-    add_users(at, Q);
-    for (const Field& field : fields_) add_field(field, field.factor, at, Q, none);
+    generalised_forces(at, std::move(Q), none);
 }
 
-void Forces::evaluate(const ForceInput& at, VectorOut Q, VectorOut rates) const {
+void Forces::generalised_forces(const StateView& at, VectorOut Q, VectorOut rates) const {
     generalised_forces_of_elements<double>(at.kinematics, at.q, at.qd, Q, at.time);
     add_users(at, Q);
-    states_.rates({at.time, at.q, at.qd, at.s, at.u}, Q, rates);
+    states_.rates(at, Q, rates);
     for (const Field& field : fields_)
         add_field(field, field.factor, field.input(at), Q, rates.segment(field.first, field.states()));
 }
@@ -135,12 +131,12 @@ void Forces::require_no_states(const char* where) const {
         throw InputError(where, "number of states", states().size(), "0: they are not taken into account here");
 }
 
-void Forces::add_users(const ForceInput& at, VectorOut& Q) const {
+void Forces::add_users(const StateView& at, VectorOut& Q) const {
     for (const User& user : users_) add_user(user, at, Q);
 }
 
 // A user force adds to what is there: to be multiplied by a factor it needs zeros of its own to add to.
-void Forces::add_user(const User& user, const ForceInput& at, VectorOut& Q) const {
+void Forces::add_user(const User& user, const StateView& at, VectorOut& Q) const {
     if (user.factor == 1) {
         user.own.force(at, Q);
         return;
@@ -156,13 +152,13 @@ const WrenchField& Forces::field(int i) const {
     return entry(fields_, i).own;
 }
 
-FieldInput Forces::field_input(std::string_view name, const ForceInput& at) const {
+FieldInput Forces::field_input(std::string_view name, const StateView& at) const {
     for (const Field& field : fields_)
         if (field.own.name == name) return field.input(at);
     throw InputError("forces", "field", std::string(name), "one of the system");
 }
 
-std::vector<Wrench> Forces::field_wrenches(int i, const ForceInput& at) const {
+std::vector<Wrench> Forces::field_wrenches(int i, const StateView& at) const {
     const Field& own = (static_cast<void>(field(i)), entry(fields_, i));
     std::vector<Wrench> out(own.own.points.size());
     Vector rates(own.states());
@@ -230,12 +226,7 @@ double Forces::gravity_energy(const Kinematics& kin) const {
     return energy;
 }
 
-std::vector<ForceReport> Forces::report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const {
-    require_no_states("forces");
-    return report({time, q, qd, kin, no_states, no_states});
-}
-
-std::vector<ForceReport> Forces::report(const ForceInput& at) const {
+std::vector<ForceReport> Forces::report(const StateView& at) const {
     const double time = at.time;
     const Vector &q = at.q, &qd = at.qd;
     const Kinematics& kin = at.kinematics;
@@ -282,19 +273,14 @@ std::vector<ForceReport> Forces::report(const ForceInput& at) const {
     return reports;
 }
 
-double Forces::potential_energy(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const {
-    require_no_states("forces");
-    return potential_energy({time, q, qd, kin, no_states, no_states});
-}
-
-double Forces::potential_energy(const ForceInput& at) const {
+double Forces::potential_energy(const StateView& at) const {
     double sum = 0;
     for (const ForceReport& element : report(at)) sum += element.energy.value_or(0.0);
     return sum;
 }
 
-StateEnergy Forces::state_energy(const ForceInput& at) const {
-    return states_.energy({at.time, at.q, at.qd, at.s, at.u});
+StateEnergy Forces::state_energy(const StateView& at) const {
+    return states_.energy(at);
 }
 
 Vec3 place_of(const Kinematics& kin, const FieldPoint& point) {

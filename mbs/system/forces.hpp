@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mbs/kernels/metric.hpp"
+#include "mbs/system/state.hpp"
 #include "mbs/system/state_forces.hpp"
 
 #include <functional>
@@ -25,15 +26,6 @@ inline void add_moved(Wrench& sum, const Wrench& wrench, const Vec3& from, const
 /// Axes in which a wrench is constant: those of the base (dead load) or those of the frame (follower load).
 enum class WrenchAxes : std::uint8_t { base, frame };
 
-/// A motion with the states beside it and the inputs: what forces depend on.
-struct ForceInput {
-    double time;
-    const Vector& q;
-    const Vector& qd;
-    const Kinematics& kinematics;
-    const Vector& s;  ///< states, Forces::states(); for user forces to look at, not to depend on: see StateElement
-    const Vector& u;  ///< inputs, Forces::inputs()
-};
 /// Of a system without states or inputs.
 inline const Vector no_states;
 
@@ -43,11 +35,11 @@ struct UserForce {
     std::string name = {};
     /// Adds its generalised forces to Q (size n), which already holds those of other elements: add, do not assign or
     /// read.
-    std::function<void(const ForceInput&, VectorOut Q)> force = {};
+    std::function<void(const StateView&, VectorOut Q)> force = {};
     /// Adds dQ/dq and dQ/dqd (n x n), in the same way.
-    std::function<void(const ForceInput&, MatrixOut dQ_dq, MatrixOut dQ_dqd)> jacobian = {};
+    std::function<void(const StateView&, MatrixOut dQ_dq, MatrixOut dQ_dqd)> jacobian = {};
     /// Potential energy, J, if there is one.
-    std::function<double(const ForceInput&)> energy = {};
+    std::function<double(const StateView&)> energy = {};
     /// A spring rather than a load: -dQ/dq counts as elastic stiffness.
     bool elastic = false;
 };
@@ -59,13 +51,13 @@ struct FieldPoint {
 };
 
 /// A motion as a field sees it, with the field's own states and inputs.
-struct FieldInput : ForceInput {
+struct FieldInput : StateView {
     Eigen::Ref<const Vector> own;          ///< in the field's order; empty without
     std::span<const int> own_inputs = {};  ///< WrenchField::inputs, as indices into `u`
 
-    FieldInput(const ForceInput& at) : ForceInput(at), own(no_states) {}  // NOLINT(google-explicit-constructor)
-    FieldInput(const ForceInput& at, const Eigen::Ref<const Vector>& states, std::span<const int> inputs = {})
-        : ForceInput(at), own(states), own_inputs(inputs) {}
+    FieldInput(const StateView& at) : StateView(at), own(no_states) {}  // NOLINT(google-explicit-constructor)
+    FieldInput(const StateView& at, const Eigen::Ref<const Vector>& states, std::span<const int> inputs = {})
+        : StateView(at), own(states), own_inputs(inputs) {}
 };
 
 /// Derivatives of a field with states, to be added to: of the generalised forces Q and of the states' rates f.
@@ -186,12 +178,14 @@ struct ForceReport {
     double power;                  ///< Q . qd, W
 };
 
-/// Stiffness and damping of the force elements at a state: -dQ/dq and -dQ/dqd, n x n, by origin.
+/// Stiffness and damping of the force elements at a state, -dQ/dq and -dQ/dqd, n x n, by origin, and the derivatives by
+/// and of the states.
 struct ForceDerivatives {
     Matrix elastic;  ///< -dQ/dq of linear laws, elastic user forces and elastic fields
     Matrix gravity;  ///< -dQ/dq of gravity
     Matrix loads;    ///< -dQ/dq of wrenches, other fields, other user forces and elements with states
     Matrix damping;  ///< -dQ/dqd of all
+    StateDerivatives states;
 };
 
 /// A force set bound to a model: indices resolved, ready to evaluate. All functions throw InputError for kinematics of
@@ -201,35 +195,29 @@ public:
     /// @throws InputError for bodies and frames that the model does not have
     Forces(const ForceSet& set, const Model& model);
 
-    /// Q_a, the sum over all elements.
-    /// @param Q  out, size n, N m or N; overwritten; must not alias q or qd. Cost O(n d); allocates nothing unless a
-    ///           user force does.
-    /// @throws InputError if there are states: evaluate()
-    void generalised_forces(const Kinematics& kin, double time, const Vector& q, const Vector& qd, VectorOut Q) const;
-    /// The same with states.
-    /// @param rates  out, of the states: ds/dt
-    void evaluate(const ForceInput& at, VectorOut Q, VectorOut rates) const;
+    /// Q_a, the sum over all elements, and the rates of the states.
+    /// @param Q      out, size n, N m or N; overwritten; must not alias q or qd. Cost O(n d); allocates nothing unless
+    /// a
+    ///               user force does.
+    /// @param rates  out, ds/dt of states(); overwritten
+    void generalised_forces(const StateView& at, VectorOut Q, VectorOut rates) const;
+    /// Of a system without states.  @throws InputError if there are some
+    void generalised_forces(const StateView& at, VectorOut Q) const;
     /// Likewise without user forces and fields, for any scalar (tests).
     template <class S>
     void generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q,
                                         double time = 0) const;
-    /// -dQ/dq and -dQ/dqd by origin.
+    /// Derivatives of forces and rates.
     /// @param out  overwritten; matrices of the right size are reused. Cost O(n^2), then without allocation unless a
     ///             user force has no Jacobian.
-    /// @throws InputError if there are states
-    void derivatives(const Kinematics& kin, double time, const Vector& q, const Vector& qd,
-                     ForceDerivatives& out) const;
-    /// The same with states.  @param states  overwritten
-    void derivatives(const ForceInput& at, ForceDerivatives& out, StateDerivatives& states) const;
+    void derivatives(const StateView& at, ForceDerivatives& out) const;
 
     /// Potential energy of all elements that have one, J; that in elements with states apart, state_energy().
-    double potential_energy(const ForceInput& at) const;
-    double potential_energy(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
+    double potential_energy(const StateView& at) const;
     /// Of all elements but those with states.
-    std::vector<ForceReport> report(const Kinematics& kin, double time, const Vector& q, const Vector& qd) const;
-    std::vector<ForceReport> report(const ForceInput& at) const;
+    std::vector<ForceReport> report(const StateView& at) const;
     /// Energy of the elements with states that tell it, without load factors.
-    StateEnergy state_energy(const ForceInput& at) const;
+    StateEnergy state_energy(const StateView& at) const;
 
     /// @throws InputError if there are elements with states: for analyses that do not know them
     void require_no_states(const char* where) const;
@@ -247,8 +235,8 @@ public:
     const WrenchField& field(int i) const;
     /// A motion as the field of this name sees it; valid as long as these forces.
     /// @throws InputError without such a field
-    FieldInput field_input(std::string_view name, const ForceInput& at) const;
-    std::vector<Wrench> field_wrenches(int i, const ForceInput& at) const;
+    FieldInput field_input(std::string_view name, const StateView& at) const;
+    std::vector<Wrench> field_wrenches(int i, const StateView& at) const;
     /// Times, s, ascending, across which a load, a field or an element with states is not smooth.
     std::vector<double> breaks() const;
     const Vec3& gravity() const { return gravity_; }
@@ -290,7 +278,7 @@ private:
         std::vector<int> inputs = {};  // their indices
 
         Eigen::Index states() const { return std::ssize(own.states); }
-        FieldInput input(const ForceInput& at) const { return {at, at.s.segment(first, states()), inputs}; }
+        FieldInput input(const StateView& at) const { return {at, at.s.segment(first, states()), inputs}; }
     };
     // Coefficients of one row of a law's matrix, of consecutive coordinates.
     struct Run {
@@ -318,18 +306,16 @@ private:
     void add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, double time, VectorOutT<S> Q) const;
     void gravity_stiffness(const Kinematics& kin, Matrix& K) const;
     void wrench_stiffness(const FrameLoad& load, const Kinematics& kin, double time, Matrix& K) const;
-    void add_users(const ForceInput& at, VectorOut& Q) const;
-    void mechanical_derivatives(const ForceInput& at, ForceDerivatives& out) const;
-    void add_user(const User& user, const ForceInput& at, VectorOut& Q) const;
-    void user_derivatives(const User& user, const ForceInput& at, ForceDerivatives& out) const;
+    void add_users(const StateView& at, VectorOut& Q) const;
+    void add_user(const User& user, const StateView& at, VectorOut& Q) const;
+    void user_derivatives(const User& user, const StateView& at, ForceDerivatives& out) const;
     Field bound(const WrenchField& field, const Model& model, int first) const;
     static void evaluate_field(const FieldInput& at, const Field& field, std::span<Wrench> wrenches,
                                const VectorOut& rates);
     void add_field(const Field& field, double factor, const FieldInput& at, VectorOut& Q, const VectorOut& rates) const;
-    void field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out) const;
-    void state_field_derivatives(const Field& field, const ForceInput& at, ForceDerivatives& out,
-                                 StateDerivatives& states) const;
-    void input_derivatives(const Field& field, const ForceInput& at, StateDerivatives& out) const;
+    void field_derivatives(const Field& field, const StateView& at, ForceDerivatives& out) const;
+    void state_field_derivatives(const Field& field, const StateView& at, ForceDerivatives& out) const;
+    void input_derivatives(const Field& field, const StateView& at, StateDerivatives& out) const;
     double gravity_energy(const Kinematics& kin) const;
     template <class S>
     void require_state(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd) const;

@@ -19,7 +19,7 @@ ChannelGroup free_body_channels(const Model& model) {
                                         .units = unit,
                                         .long_name = text(what, " of the free body '", body.name, "' about"),
                                         .frame = text("inboard frame of ", body.name)});
-    group.sample = [&model](const ChannelInput& in, double* values) {
+    group.sample = [&model](const DynamicView& in, double* values) {
         for (const Model::Free& body : model.free_bodies()) {
             const FreeMotion motion = free_motion(body, in.q, in.qd);
             const Eigen::AngleAxisd turn(motion.pose.R);

@@ -42,10 +42,10 @@ ChannelGroup joint_channels(const System& system, const std::vector<JointOutput>
                         .point = text("joint of ", joint.body)},
                        text(" of ", frame));
     }
-    group.sample = [places = std::move(places)](const ChannelInput& in, double* values) {
+    group.sample = [places = std::move(places)](const DynamicView& in, double* values) {
         for (const auto& [body, axes] : places) {
             const Mat3 to_axes = pose(in.kinematics, axes).R.transpose();
-            const Wrench& load = entry(in.loads.joint, body);
+            const Wrench& load = entry(in.loads().joint, body);
             const Vec3 force = to_axes * load.force, moment = to_axes * load.moment;
             values = std::copy_n(force.data(), 3, values);
             values = std::copy_n(moment.data(), 3, values);

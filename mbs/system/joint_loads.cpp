@@ -1,24 +1,20 @@
-#include "mbs/system/joint_loads.hpp"
-
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/system/dynamic_view.hpp"
 
 #include <utility>
 
 namespace cardan {
 
-namespace {
-
-// @param fields  of each, its wrenches
-JointLoads loads_with(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time,
-                      std::vector<std::vector<Wrench>> fields, std::vector<LoopLoad> loops) {
+JointLoads joint_loads(const StateView& at, const Forces& forces, VectorIn qdd, std::vector<LoopLoad> loops) {
+    const Kinematics& kin = at.kinematics;
     const Model& model = kin.model();
     require_model("joint loads", "set of forces", forces.model_serial(), model.serial());
     const Workspace& ws = kin.workspace();
     Vector tau(model.size());
-    inverse_dynamics<double>(kin, qd, qdd, tau);
+    inverse_dynamics<double>(kin, at.qd, qdd, tau);
     JointLoads t;
-    t.time = time;
+    t.time = at.time;
     for (int k = 0; k < model.size(); ++k) {
         const Workspace::Motion& motion = entry(ws.motion, k);
         const auto& load = entry(ws.load, k);
@@ -33,9 +29,9 @@ JointLoads loads_with(const Kinematics& kin, const Forces& forces, VectorIn qd, 
     for (const FrameLoad& load : forces.loads()) {
         const int body = model.frame(load.frame).body;
         if (body < 0) continue;
-        add_moved(entry(applied, body), forces.at_frame(load, kin, time), pose(kin, load.frame).p, kin.origin(body));
+        add_moved(entry(applied, body), forces.at_frame(load, kin, at.time), pose(kin, load.frame).p, kin.origin(body));
     }
-    t.fields = std::move(fields);
+    for (int f = 0; f < forces.fields(); ++f) t.fields.push_back(forces.field_wrenches(f, at));
     for_each_point(forces, t, [&](const FieldPoint& point, const Wrench& wrench) {
         const int body = model.frame(point.frame).body;
         if (body >= 0) add_moved(entry(applied, body), wrench, place_of(kin, point), kin.origin(body));
@@ -52,20 +48,12 @@ JointLoads loads_with(const Kinematics& kin, const Forces& forces, VectorIn qd, 
     return t;
 }
 
-}  // namespace
-
-JointLoads joint_loads(const ForceInput& at, const Forces& forces, VectorIn qdd, std::vector<LoopLoad> loops) {
-    std::vector<std::vector<Wrench>> fields;
-    fields.reserve(static_cast<std::size_t>(forces.fields()));
-    for (int f = 0; f < forces.fields(); ++f) fields.push_back(forces.field_wrenches(f, at));
-    return loads_with(at.kinematics, forces, at.qd, qdd, at.time, std::move(fields), std::move(loops));
-}
-
-JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time) {
-    if (forces.fields() > 0)
-        throw InputError("joint loads", "number of fields", forces.fields(),
-                         "0: what they depend on is told by a ForceInput");
-    return loads_with(kin, forces, qd, qdd, time, {}, {});
+const JointLoads& DynamicView::loads() const {
+    if (loads_) return *loads_;
+    std::vector<LoopLoad> exerted;
+    if (!loops_->empty())  // multipliers that are not given are zero
+        loops_->add_loads(kinematics, lambda.size() > 0 ? lambda : Vector(Vector::Zero(loops_->size())), exerted);
+    return loads_.emplace(joint_loads(*this, forces, qdd, std::move(exerted)));
 }
 
 }  // namespace cardan

@@ -46,11 +46,6 @@ void for_each_point(const Forces& forces, const JointLoads& loads, const Visit& 
 
 /// @param qdd    accelerations, size n
 /// @param loops  what loops exert, Loops::add_loads()
-JointLoads joint_loads(const ForceInput& at, const Forces& forces, VectorIn qdd, std::vector<LoopLoad> loops = {});
-/// The same without fields.
-/// @param qd, qdd  rates and accelerations, size n
-/// @param time     s, if wrenches change with time
-/// @throws InputError if the forces have fields: they may depend on more
-JointLoads joint_loads(const Kinematics& kin, const Forces& forces, VectorIn qd, VectorIn qdd, double time = 0);
+JointLoads joint_loads(const StateView& at, const Forces& forces, VectorIn qdd, std::vector<LoopLoad> loops = {});
 
 }  // namespace cardan

@@ -37,10 +37,10 @@ ChannelGroup reaction_channels(const System& system) {
     }
     if (group.channels.empty())
         throw InputError("reaction channels", "number of joints, rods and surfaces among the loops", 0, ">= 1");
-    group.sample = [&loops](const ChannelInput& in, double* values) {
+    group.sample = [&loops](const DynamicView& in, double* values) {
         for (int i = 0; i < loops.pairs(); ++i) {
             // Two loads for each: on b, then on a.
-            const LoopLoad& load = entry(in.loads.loops, 2 * i);
+            const LoopLoad& load = entry(in.loads().loops, 2 * i);
             if (loops.is_rod(i)) {
                 *values++ = loops.rod_tension(in.kinematics, i, load);
                 continue;

@@ -50,7 +50,7 @@ public:
     Eigen::Index rows() const { return nq_ + ns_; }
     Eigen::Index columns() const { return 2 * nq_ + ns_ + no_ + nu_; }
 
-    void gather(const Bound& element, const At& at) {
+    void gather(const Bound& element, const StateView& at) {
         double* out = memory_.data();
         for (const int i : element.at) *out++ = at.q(i);
         for (const int i : element.at) *out++ = at.qd(i);
@@ -193,14 +193,14 @@ void StateForces::bind(Bound& element, const Model& model) {
     for (const std::string& name : element.own.inputs) element.inputs.push_back(named(name, inputs_));
 }
 
-void StateForces::require_sizes(const At& at) const {
+void StateForces::require_sizes(const StateView& at) const {
     require_size("elements with states", "q", at.q, size_);
     require_size("elements with states", "qd", at.qd, size_);
     require_size("elements with states", "s", at.s, states_.size());
     require_size("elements with states", "u", at.u, inputs_.size());
 }
 
-void StateForces::rates(const At& at, VectorOut& Q, VectorOut& f) const {
+void StateForces::rates(const StateView& at, VectorOut& Q, VectorOut& f) const {
     require_sizes(at);
     require_size("elements with states", "Q", Q, size_);
     require_size("elements with states", "f", f, states_.size());
@@ -243,7 +243,7 @@ void StateForces::difference(const Bound& element, double time, Local& local) co
     }
 }
 
-void StateForces::derivatives(const At& at, Matrix& K, Matrix& D, StateDerivatives& out) const {
+void StateForces::derivatives(const StateView& at, Matrix& K, Matrix& D, StateDerivatives& out) const {
     require_sizes(at);
     const int m = states_.size(), u = inputs_.size();
     out.Q_s.setZero(size_, m);
@@ -278,7 +278,7 @@ void StateForces::derivatives(const At& at, Matrix& K, Matrix& D, StateDerivativ
     }
 }
 
-StateEnergy StateForces::energy(const At& at) const {
+StateEnergy StateForces::energy(const StateView& at) const {
     require_sizes(at);
     StateEnergy sum;
     for (const Bound& element : elements_) {

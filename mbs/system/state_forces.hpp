@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mbs/model/model.hpp"
+#include "mbs/system/state.hpp"
 #include "mbs/system/state_element.hpp"
 
 #include <string>
@@ -37,17 +38,12 @@ public:
     const InputTable& inputs() const { return inputs_; }
     const std::vector<StateGroup>& groups() const { return groups_; }
 
-    /// @param q, qd, s, u  of the whole system
-    struct At {
-        double time;
-        const Vector &q, &qd, &s, &u;
-    };
     /// Adds the forces to Q and writes the rates of the elements' states.  @param f  out, number of states
-    void rates(const At& at, VectorOut& Q, VectorOut& f) const;
+    void rates(const StateView& at, VectorOut& Q, VectorOut& f) const;
     /// Subtracts dQ/dq from K and dQ/dqd from D (n x n), and writes the rest, zero for the states of others.
-    void derivatives(const At& at, Matrix& K, Matrix& D, StateDerivatives& out) const;
+    void derivatives(const StateView& at, Matrix& K, Matrix& D, StateDerivatives& out) const;
     /// Sum over the elements that tell their energy.
-    StateEnergy energy(const At& at) const;
+    StateEnergy energy(const StateView& at) const;
     /// Appends the times across which the elements are not smooth.
     void append_breaks(std::vector<double>& times) const;
     /// Multiplies the forces Q, not the rates.
@@ -67,7 +63,7 @@ private:
     void add_groups(const OtherStates& others, int first, const std::string& where);
     void difference(const Bound& element, double time, Local& local) const;
     double step(const Bound& element, int column) const;
-    void require_sizes(const At& at) const;
+    void require_sizes(const StateView& at) const;
 
     std::vector<Bound> elements_;
     StateTable states_;

@@ -22,14 +22,14 @@ struct RevolutionOptions {
 
 /// All channels at all states.
 inline solvers::History history_of(const System& system, std::span<const ChannelGroup> groups,
-                                   const std::vector<solvers::OperatingPoint>& states, std::string title) {
+                                   const std::vector<DynamicState>& states, std::string title) {
     solvers::History history;
     history.title = std::move(title);
     for (const ChannelGroup& group : groups)
         history.channels.insert(history.channels.end(), group.channels.begin(), group.channels.end());
     history.values.resize(history.channels.size());
     solvers::ChannelValues values(system, groups);
-    for (const solvers::OperatingPoint& state : states) {
+    for (const DynamicState& state : states) {
         const std::vector<double>& row = values.at(state);
         history.time.push_back(state.time);
         for (std::size_t i = 0; i < row.size(); ++i) history.values[i].push_back(row[i]);

@@ -57,7 +57,7 @@ void declare(CommandLine& app, SteadyArguments& a) {
 
 // One revolution; at rest one state.
 struct Revolution {
-    std::vector<solvers::OperatingPoint> states;
+    std::vector<DynamicState> states;
     std::string about;
 };
 

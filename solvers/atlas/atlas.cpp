@@ -51,7 +51,7 @@ void AtlasIntegrator::watch(std::size_t chart) {
     IntegrationOptions& options = charts_[chart].options;
     options.events.push_back(
         {.name = "quality of the chart",
-         .function = [this, chart](const ForceInput& at) { return quality(chart, at.q) - min_quality_; },
+         .function = [this, chart](const StateView& at) { return quality(chart, at.q) - min_quality_; },
          .direction = -1,
          .action =
              [this](Integrator&) {

@@ -119,7 +119,7 @@ struct StateMotion {
 
 struct CampbellPoint {
     double rotor_speed = 0;           ///< rad/s
-    OperatingPoint at;                ///< steady state, at azimuth 0
+    DynamicState at;                  ///< steady state, at azimuth 0
     std::vector<CampbellMode> modes;  ///< by natural frequency
     /// Oscillating ones first, each by |eigenvalue|. Of many, few or none: CampbellOptions::all_state_motions.
     std::vector<StateMotion> state_motions = {};

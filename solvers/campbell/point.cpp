@@ -95,25 +95,25 @@ void PointSolver::reduce_unknowns() {
     const Vector zero = Vector::Zero(system_.model.size());
     const Closure closed = close_loops(system_.model, system_.loops, zero, options);
     require_result(closed, rotor_.machine);
-    lineariser_.linearise({closed.q, zero, zero}, lin_);
+    lineariser_.linearise(at_rest(closed.q), lin_);
     moving_ = unknowns_;
     unknowns_ = independent_coordinates(lin_, moving_, rotor_.spin);
     if (rotor_.blades.size() > 1 && options_.method != CampbellMethod::floquet)
         require_constant_rows(rotor_, unknowns_);
 }
 
-void PointSolver::linearise(const OperatingPoint& at) {
+void PointSolver::linearise(const DynamicState& at) {
     lineariser_.linearise(at, lin_);
     if (!moving_.empty()) condense_loops(lin_, moving_, unknowns_);
 }
 
-Linearisation PointSolver::linearised_at(const OperatingPoint& at) const {
+Linearisation PointSolver::linearised_at(const DynamicState& at) const {
     Linearisation lin = solvers::linearise(system_, at, LoopState::in_motion);
     condense_loops(lin, moving(), unknowns_);
     return lin;
 }
 
-Matrix PointSolver::followers(const OperatingPoint& at) const {
+Matrix PointSolver::followers(const DynamicState& at) const {
     if (moving_.empty()) return {};
     Workspace workspace(system_.model);
     Matrix G(system_.loops.size(), system_.model.size());

@@ -40,7 +40,7 @@ public:
     /// Blade coordinates at azimuth 0 from the rows of a mode's shape.
     virtual Matrix rotating_coordinates() const = 0;
     /// With loops, how all coordinates of the model move with the unknowns in blade coordinates; empty without.
-    virtual Matrix followers(const OperatingPoint& /*at*/) const { return {}; }
+    virtual Matrix followers(const DynamicState& /*at*/) const { return {}; }
     /// Null without multi-blade rows.
     virtual const ColemanTransform* coleman() const = 0;
     /// A warning about the results so far; usually empty.
@@ -87,12 +87,12 @@ public:
     const EnergyShares* energy_shares() const override { return energy_shares_ ? &*energy_shares_ : nullptr; }
     Matrix rotating_coordinates() const override;
     const std::string& warning() const override { return warning_; }
-    Matrix followers(const OperatingPoint& at) const override;
+    Matrix followers(const DynamicState& at) const override;
 
     /// Coordinates that may move: the unknowns, and with loops those that follow them.
     const std::vector<int>& moving() const { return moving_.empty() ? unknowns_ : moving_; }
     /// About a point where loops may be in motion, without constraints: condense_loops().
-    Linearisation linearised_at(const OperatingPoint& at) const;
+    Linearisation linearised_at(const DynamicState& at) const;
     /// Largest part of the (multi-blade) matrices that changes with the azimuth, relative to them. Steady state as in
     /// solve().
     double periodic_remainder(double rotor_speed);
@@ -110,7 +110,7 @@ public:
 private:
     const std::vector<MultiBladeRow>& rows() const { return coleman_ ? coleman_->rows() : plain_rows_; }
     void find_steady_state(double rotor_speed);
-    void linearise(const OperatingPoint& at);
+    void linearise(const DynamicState& at);
     void reduce_unknowns();
     void start();
     void note_rigid_springs();
@@ -142,7 +142,7 @@ private:
     std::optional<ModeSolver> mode_solver_;
     SteadyOptions steady_options_;
     SteadyState steady_;
-    OperatingPoint turned_;
+    DynamicState turned_;
     Linearisation lin_;
     SecondOrderSystem current_, other_;
     std::vector<CampbellMode> spare_;  // memory for modes beyond those of the last point

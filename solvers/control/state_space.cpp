@@ -35,20 +35,20 @@ public:
           workspace_(system.model) {}
 
     /// With loops: what is independent on the way of the steady states.
-    void choose_states(const std::vector<OperatingPoint>& points);
+    void choose_states(const std::vector<DynamicState>& points);
     /// Those of the steady state, where they are not given.
-    void set_multipliers(OperatingPoint& at);
+    void set_multipliers(DynamicState& at);
     LinearModel empty(double rotor_speed) const;
-    /// @param state_rates  of the steady state; empty: its states stand still
-    void add(const OperatingPoint& at, const Vector& state_rates, double psi, LinearModel& model);
+    /// @param at  steady state; its states stand still unless it has their rates
+    void add(const DynamicState& at, double psi, LinearModel& model);
     void finish(LinearModel& model) const;
 
 private:
-    Vector missing_forces(const OperatingPoint& at, const Vector& s, const Vector& u, Vector& state_rates);
+    Vector missing_forces(const DynamicState& at, Vector& state_rates);
     void follow();
     void solve(const Matrix& right);
     void solve_with_loops(const Matrix& right);
-    void find_forces(const OperatingPoint& at, const Vector& rates, LinearModel& model);
+    void find_forces(LinearModel& model);
 
     const System& system_;
     const RotorMap& rotor_;
@@ -58,7 +58,7 @@ private:
     Workspace workspace_;
     Linearisation lin_;
     Directions directions_;
-    Vector actuator_, state_rates_;
+    Vector state_rates_;
     Vector error_, size_;  // of the outputs' differences
 };
 
@@ -79,30 +79,27 @@ LinearModel Builder::empty(double rotor_speed) const {
     return model;
 }
 
-void Builder::choose_states(const std::vector<OperatingPoint>& points) {
+void Builder::choose_states(const std::vector<DynamicState>& points) {
     std::vector<Linearisation> way(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) lineariser_.linearise(points[i], way[i]);
     layout_.keep_independent(independent_on_the_way(way, layout_.unknowns, rotor_.spin));
 }
 
 // Inertial less applied forces of all coordinates, and the rates of the states.
-Vector Builder::missing_forces(const OperatingPoint& at, const Vector& s, const Vector& u, Vector& state_rates) {
+Vector Builder::missing_forces(const DynamicState& at, Vector& state_rates) {
     const Kinematics kin = kinematics(system_.model, at.q, workspace_);
     Vector tau(at.q.size()), Q(at.q.size());
     inverse_dynamics<double>(kin, at.qd, at.qdd, tau);
     state_rates.resize(layout_.first_order());
-    if (system_.forces.has_states())
-        system_.forces.evaluate({at.time, at.q, at.qd, kin, s, u}, Q, state_rates);
-    else
-        system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
+    system_.forces.generalised_forces({at, kin}, Q, state_rates);
     return tau - Q;
 }
 
-void Builder::set_multipliers(OperatingPoint& at) {
+void Builder::set_multipliers(DynamicState& at) {
     if (system_.loops.empty() || at.lambda.size() > 0) return;
-    const Vector s = at.s.size() > 0 ? at.s : system_.forces.states().initial(),
-                 u = at.u.size() > 0 ? at.u : system_.forces.inputs().initial();
-    at.lambda = loop_start(system_, rotor_.spin, at.time, at.q, missing_forces(at, s, u, state_rates_)).lambda;
+    if (at.s.size() == 0) at.s = system_.forces.states().initial();
+    if (at.u.size() == 0) at.u = system_.forces.inputs().initial();
+    at.lambda = loop_start(system_, rotor_.spin, at.time, at.q, missing_forces(at, state_rates_)).lambda;
 }
 
 // Positions and rates of the unknowns that follow: G q = 0, G qd + G' q = 0.
@@ -153,21 +150,23 @@ void Builder::solve_with_loops(const Matrix& right) {
 }
 
 // What the drives, that of the spin among them, carry at the operating point, and what no drive carries.
-void Builder::find_forces(const OperatingPoint& at, const Vector& rates, LinearModel& model) {
-    Vector missing = missing_forces(at, lin_.at.s, lin_.at.u, state_rates_);
+void Builder::find_forces(LinearModel& model) {
+    Vector missing = missing_forces(lin_.at, state_rates_);
     if (!system_.loops.empty()) missing -= lin_.constraints.transpose() * lin_.at.lambda;
-    actuator_ = Vector::Zero(missing.size());
-    for (int i : layout_.driven) actuator_(i) = missing(i);
+    Vector& actuator = lin_.at.actuator;
+    actuator = Vector::Zero(missing.size());
+    for (int i : layout_.driven) actuator(i) = missing(i);
     Vector on_unknowns = missing(layout_.unknowns);
     for (Index row = 0; row < on_unknowns.size(); ++row)
         if (entry(layout_.unknowns, row) == rotor_.spin) {
-            actuator_(rotor_.spin) = missing(rotor_.spin);
+            actuator(rotor_.spin) = missing(rotor_.spin);
             on_unknowns(row) = 0;
         }
     const Matrix M = lin_.mass(layout_.unknowns, layout_.unknowns);
     const Vector off = M.llt().solve(on_unknowns);
     if (off.size() > 0) model.imbalance = std::max(model.imbalance, off.cwiseAbs().maxCoeff());
     // States that do not move as they should, by their scales, in a second.
+    const Vector& rates = lin_.at.s_rate;
     for (int i = 0; const StateInfo& state : system_.forces.states()) {
         const double moves = rates.size() > 0 ? rates(i) : 0.0;
         const double rate = state.kind == StateKind::angle ? 0 : std::abs(state_rates_(i) - moves) / state.scale;
@@ -176,7 +175,7 @@ void Builder::find_forces(const OperatingPoint& at, const Vector& rates, LinearM
     }
 }
 
-void Builder::add(const OperatingPoint& at, const Vector& state_rates, double psi, LinearModel& model) {
+void Builder::add(const DynamicState& at, double psi, LinearModel& model) {
     lineariser_.linearise(at, lin_);
     layout_.begin(kinematics(system_.model, at.q, workspace_), directions_);
     const bool loops = !system_.loops.empty();
@@ -194,7 +193,7 @@ void Builder::add(const OperatingPoint& at, const Vector& state_rates, double ps
         solve_with_loops(right);
     else
         solve(right);
-    find_forces(at, state_rates, model);
+    find_forces(model);
 
     const Index states = layout_.states(), half = std::ssize(layout_.coordinates), first = layout_.first_order(),
                 inputs = layout_.columns() - states;
@@ -212,8 +211,8 @@ void Builder::add(const OperatingPoint& at, const Vector& state_rates, double ps
     sample.xdot.resize(states);
     sample.xdot << at.qd(layout_.coordinates), at.qdd(layout_.coordinates), state_rates_;
     sample.u = layout_.input_values(at);
-    sample.y = differences_.at(lin_.at, actuator_, system_.forces);
-    const Matrix slopes = differences_.along(lin_.at, actuator_, directions_, layout_, error_, size_);
+    sample.y = differences_.at(lin_.at, system_.forces);
+    const Matrix slopes = differences_.along(lin_.at, directions_, layout_, error_, size_);
     sample.C = slopes.leftCols(states);
     sample.D = slopes.rightCols(inputs);
 
@@ -226,34 +225,29 @@ void Builder::finish(LinearModel& model) const {
         if (size_(i) > 0) model.output_error(i) = error_(i) / size_(i);
 }
 
-// The steady state at an azimuth, with the rates of its states (empty: they stand still).
-struct Steady {
-    OperatingPoint at;
-    Vector state_rates = {};
-};
-
+// @param steady  the steady state at an azimuth
 LinearModel build(const System& system, const RotorMap& rotor, double rotor_speed, int azimuths,
-                  const std::function<Steady(double psi)>& steady, double first, const std::vector<LinearInput>& inputs,
-                  const std::vector<ChannelGroup>& outputs, const StateSpaceOptions& options) {
+                  const std::function<DynamicState(double psi)>& steady, double first,
+                  const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
+                  const StateSpaceOptions& options) {
     check_number_of_unknowns(rotor.machine, system.model.coordinates().free().size());
     Builder builder(system, rotor, inputs, outputs, options);
     const auto azimuth = [&](int s) { return azimuths == 1 ? first : 2 * pi * s / azimuths; };
     const auto at = [&](int s) {
-        Steady now = steady(azimuth(s));
-        builder.set_multipliers(now.at);
+        DynamicState now = steady(azimuth(s));
+        builder.set_multipliers(now);
         return now;
     };
     if (!system.loops.empty()) {
-        std::vector<OperatingPoint> way;
+        std::vector<DynamicState> way;
         way.reserve(static_cast<std::size_t>(azimuths));
-        for (int s = 0; s < azimuths; ++s) way.push_back(at(s).at);
+        for (int s = 0; s < azimuths; ++s) way.push_back(at(s));
         builder.choose_states(way);
     }
     LinearModel model = builder.empty(rotor_speed);
     for (int s = 0; s < azimuths; ++s) {
         const double psi = azimuth(s);
-        const Steady now = at(s);
-        builder.add(now.at, now.state_rates, psi, model);
+        builder.add(at(s), psi, model);
     }
     builder.finish(model);
     return model;
@@ -274,18 +268,11 @@ LinearModel state_space(const System& system, const RotorMap& rotor, const Perio
                          text("those of the system, ", system.forces.states().size()));
     if (options.azimuths < 3) throw InputError(in_linear_model, "number of azimuths", options.azimuths, ">= 3");
     return build(
-        system, rotor, about.rotor_speed, options.azimuths,
-        [&](double psi) {
-            Steady now{about.at(psi)};
-            if (about.state_coefficients.rows() > 0)
-                now.state_rates =
-                    about.rotor_speed * (about.state_coefficients * fourier_basis(psi, about.harmonics(), 1));
-            return now;
-        },
-        0, inputs, outputs, options);
+        system, rotor, about.rotor_speed, options.azimuths, [&](double psi) { return about.at(psi); }, 0, inputs,
+        outputs, options);
 }
 
-LinearModel state_space(const System& system, const RotorMap& rotor, const OperatingPoint& about,
+LinearModel state_space(const System& system, const RotorMap& rotor, const DynamicState& about,
                         const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
                         const StateSpaceOptions& options) {
     for (const Vector* v : {&about.q, &about.qd, &about.qdd})
@@ -299,10 +286,11 @@ LinearModel state_space(const System& system, const RotorMap& rotor, const Opera
     const int azimuths = speed == 0 ? 1 : options.azimuths;
     if (speed != 0 && azimuths < 3) throw InputError(in_linear_model, "number of azimuths", azimuths, ">= 3");
     const auto at = [&](double psi) {
-        Steady turned{about};
+        DynamicState turned = about;
+        turned.s_rate.resize(0);
         if (speed == 0) return turned;
-        turned.at.q(rotor.spin) = psi;
-        turned.at.time = psi / speed;
+        turned.q(rotor.spin) = psi;
+        turned.time = psi / speed;
         return turned;
     };
     return build(system, rotor, speed, azimuths, at, first, inputs, outputs, options);

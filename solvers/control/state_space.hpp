@@ -84,7 +84,7 @@ LinearModel state_space(const System& system, const RotorMap& rotor, const Perio
 
 /// About a steady state that is constant except for the azimuth (SteadyState::at). This is not checked: see
 /// LinearModel::imbalance.
-LinearModel state_space(const System& system, const RotorMap& rotor, const OperatingPoint& about,
+LinearModel state_space(const System& system, const RotorMap& rotor, const DynamicState& about,
                         const std::vector<LinearInput>& inputs, const std::vector<ChannelGroup>& outputs,
                         const StateSpaceOptions& options = {});
 

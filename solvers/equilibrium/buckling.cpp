@@ -62,20 +62,19 @@ Matrix prestress(const System& system, const Vector& q, const Vector& deflection
         largest =
             std::max(largest, std::abs(deflection(i)) / (system.model.body(i).revolute || !(length > 0) ? 1 : length));
     if (!(largest > 0)) return Matrix::Zero(q.size(), q.size());
-    const Vector zero = Vector::Zero(q.size()), d = step / largest * deflection;
-    const Matrix there = linearise(system, {q + d, zero, zero, 0}).elastic,
-                 back = linearise(system, {q - d, zero, zero, 0}).elastic;
+    const Vector d = step / largest * deflection;
+    const Matrix there = linearise(system, at_rest(q + d)).elastic, back = linearise(system, at_rest(q - d)).elastic;
     return above_rounding(there - back, there.cwiseAbs() + back.cwiseAbs()) * (largest / (2 * step));
 }
 
 // Generalised forces of the loads alone.
 Vector load_forces(const System& system, const Vector& q, bool gravity) {
     Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, q, workspace);
-    const Vector zero = Vector::Zero(q.size());
+    const DynamicState still = at_rest(q);
+    const StateView at(still, kinematics(system.model, q, workspace));
     Vector loaded(q.size()), unloaded(q.size());
-    system.forces.generalised_forces(kin, 0, q, zero, loaded);
-    system.forces.with_load_factor(0, gravity).generalised_forces(kin, 0, q, zero, unloaded);
+    system.forces.generalised_forces(at, loaded);
+    system.forces.with_load_factor(0, gravity).generalised_forces(at, unloaded);
     return loaded - unloaded;
 }
 
@@ -150,7 +149,7 @@ std::vector<BucklingMode> linear_buckling(const System& system, const BucklingOp
     const std::vector<int> free = system.model.coordinates().free();
     if (free.empty()) return {};
     const Vector zero = Vector::Zero(n), at = options.at.size() > 0 ? options.at : zero;
-    const Linearisation lin = linearise(system, {at, zero, zero, 0});
+    const Linearisation lin = linearise(system, at_rest(at));
     Matrix structure = lin.elastic(free, free), loads = lin.loads;
     if (options.gravity)
         loads += lin.gravity;

@@ -137,7 +137,7 @@ private:
         Vector tau(n), Q(n);
         const Kinematics kin = kinematics(system_.model, at_.q, workspace_);
         inverse_dynamics<double>(kin, at_.qd, at_.qdd, tau);
-        loaded.forces.generalised_forces(kin, 0, at_.q, at_.qd, Q);
+        loaded.forces.generalised_forces({at_, kin}, Q);
         tau -= Q;
         if (system_.loops.empty()) return tau;
         Matrix G(system_.loops.size(), n);
@@ -150,7 +150,7 @@ private:
     std::vector<int> unknowns_, equations_;
     Vector units_;  ///< of the unknown coordinates in z
     Workspace workspace_;
-    OperatingPoint at_;
+    DynamicState at_;
 };
 
 // The direction of the curve, of unit arc length, that goes on from `before`.

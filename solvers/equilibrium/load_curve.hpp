@@ -22,7 +22,7 @@ struct LoadCurveOptions {
 /// One equilibrium on the curve.
 struct LoadCurvePoint {
     double factor = 0;
-    OperatingPoint at;
+    DynamicState at;
     int negative_pivots = 0;  ///< as LoadPathPoint::negative_pivots
     double slope = 0;         ///< d factor / d arc length; it changes its sign at limit points
 };

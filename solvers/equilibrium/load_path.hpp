@@ -33,7 +33,7 @@ struct LoadPathOptions {
 /// One equilibrium on the path.
 struct LoadPathPoint {
     double factor = 0;    ///< on the loads
-    OperatingPoint at;    ///< q, and with rotation the rate of the spin coordinate
+    DynamicState at;      ///< q, and with rotation the rate of the spin coordinate
     int iterations = 0;   ///< of Newton's method in the step that led here
     double residual = 0;  ///< SteadyState::residual
     /// Number of negative pivots of the tangent stiffness dr/dq on the unknowns: of its symmetric part, counted as

@@ -8,7 +8,7 @@
 namespace cardan::solvers {
 
 struct NaturalModes {
-    OperatingPoint at;          ///< the steady state they belong to
+    DynamicState at;            ///< the steady state they belong to
     std::vector<int> unknowns;  ///< model index of every row of the shapes
     std::vector<Mode> modes;    ///< by natural frequency; see modes()
 };

@@ -5,7 +5,6 @@
 #include "mbs/base/outcome.hpp"
 #include "mbs/model/rotor_map.hpp"
 #include "mbs/system/system.hpp"
-#include "solvers/linear/operating_point.hpp"
 
 #include <memory>
 #include <optional>
@@ -35,7 +34,7 @@ struct SteadyOptions {
 
 /// Result of steady_state(); `at` is the last iterate also if it did not converge.
 struct [[nodiscard]] SteadyState : Outcome {
-    OperatingPoint at;
+    DynamicState at;
     double residual = 0;  ///< as SteadyOptions::tolerance
     int iterations = 0;
 };
@@ -45,7 +44,7 @@ struct [[nodiscard]] SteadyState : Outcome {
 /// KINSOL's Newton iteration with line search and the exact Jacobian. Angles count as they are, lengths by the extent
 /// of the tree (of a tree without any, by where it starts and how far its springs give), so that units do not matter.
 ///
-/// With loops, their multipliers are unknowns as well, OperatingPoint::lambda, and phi = 0 their equations; the start
+/// With loops, their multipliers are unknowns as well, DynamicState::lambda, and phi = 0 their equations; the start
 /// is closed first, the spin held. Redundant equations are left out, their multipliers zero.
 ///
 /// With rotation the result is checked at another azimuth: where gravity, an unbalance or two blades make the steady

@@ -14,33 +14,26 @@ ChannelValues::ChannelValues(const System& system, std::span<const ChannelGroup>
     values_.resize(count);
 }
 
-const std::vector<double>& ChannelValues::at(const OperatingPoint& state, const Vector& actuator,
-                                             const Forces& forces) {
+const std::vector<double>& ChannelValues::at(const DynamicState& state, const Forces& forces) {
     const Kinematics kin = kinematics(system_->model, state.q, workspace_);
-    if (system_->forces.has_states()) {
-        s_ = state.s.size() > 0 ? state.s : system_->forces.states().initial();
-        u_ = state.u.size() > 0 ? state.u : system_->forces.inputs().initial();
-        Q_.resize(state.q.size());
-        s_rate_.resize(s_.size());
-        system_->forces.evaluate({state.time, state.q, state.qd, kin, s_, u_}, Q_, s_rate_);
-    }
-    std::vector<LoopLoad> loops;
-    if (!system_->loops.empty())  // multipliers that are not given are zero
-        system_->loops.add_loads(kin, state.lambda.size() > 0 ? state.lambda : Vector::Zero(system_->loops.size()),
-                                 loops);
-    const JointLoads loads =
-        joint_loads({state.time, state.q, state.qd, kin, s_, u_}, forces, state.qdd, std::move(loops));
-    const ChannelInput input{state.time, state.q, state.qd, state.qdd, actuator, kin, forces, loads, s_, s_rate_, u_};
+    now_ = state;
+    if (now_.actuator.size() == 0) now_.actuator.setZero(state.q.size());
+    if (now_.s.size() == 0) now_.s = system_->forces.states().initial();
+    if (now_.u.size() == 0) now_.u = system_->forces.inputs().initial();
+    Q_.resize(state.q.size());
+    now_.s_rate.resize(now_.s.size());
+    if (system_->forces.has_states()) system_->forces.generalised_forces({now_, kin}, Q_, now_.s_rate);
+    const DynamicView at(now_, kin, forces, system_->loops);
     double* next = values_.data();
     for (const ChannelGroup& group : groups_) {
-        group.sample(input, next);
+        group.sample(at, next);
         next += group.channels.size();
     }
     return values_;
 }
 
-const std::vector<double>& ChannelValues::at(const OperatingPoint& state) {
-    return at(state, Vector::Zero(state.q.size()), system_->forces);
+const std::vector<double>& ChannelValues::at(const DynamicState& state) {
+    return at(state, system_->forces);
 }
 
 }  // namespace cardan::solvers

@@ -4,7 +4,6 @@
 
 #include "mbs/system/channel.hpp"
 #include "mbs/system/system.hpp"
-#include "solvers/linear/operating_point.hpp"
 
 #include <span>
 #include <vector>
@@ -18,19 +17,19 @@ public:
     /// @throws InputError for a group without a function
     ChannelValues(const System& system, std::span<const ChannelGroup> groups);
 
-    /// @param actuator  generalised forces of drives on their coordinates, N m or N
-    /// @param forces    those that act, as far as loads follow from them; of the system's model
+    /// @param forces  those that act, as far as loads follow from them; of the system's model
     /// @return valid until the next call
-    const std::vector<double>& at(const OperatingPoint& state, const Vector& actuator, const Forces& forces);
-    /// Of the system's own forces, without drives.
-    const std::vector<double>& at(const OperatingPoint& state);
+    const std::vector<double>& at(const DynamicState& state, const Forces& forces);
+    /// Of the system's own forces.
+    const std::vector<double>& at(const DynamicState& state);
 
 private:
     const System* system_;
     std::span<const ChannelGroup> groups_;
     Workspace workspace_;
     std::vector<double> values_;
-    Vector s_, s_rate_, u_, Q_;  ///< of the states beside the coordinates
+    DynamicState now_;
+    Vector Q_;
 };
 
 }  // namespace cardan::solvers

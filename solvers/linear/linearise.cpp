@@ -23,7 +23,7 @@ void require_finite(const CoordinateTable& table, const char* what, const Vector
             throw InputError(text(in_linearisation, ": coordinate '", table[i].name, "'"), what, values(i), "finite");
 }
 
-void check(const CoordinateTable& table, const OperatingPoint& at) {
+void check(const CoordinateTable& table, const DynamicState& at) {
     require_finite(table, "position", at.q);
     require_finite(table, "rate", at.qd);
     require_finite(table, "acceleration", at.qdd);
@@ -62,7 +62,7 @@ Lineariser::Lineariser(const System& system, LoopState loops)
     if (loops == LoopState::in_motion && !system.loops.empty()) gradient_rates_.emplace(system.model, system.loops);
 }
 
-void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
+void Lineariser::linearise(const DynamicState& at, Linearisation& out) {
     const Eigen::Index n = system_.model.size();
     check(system_.model.coordinates(), at);
     const Kinematics kin = kinematics(system_.model, at.q, workspace_);
@@ -72,21 +72,17 @@ void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
         m->resize(n, n);
     metric(kin, out.mass);
     inverse_dynamics_derivatives(kin, at.qd, at.qdd, out.inertial, out.gyroscopic);
-    if (system_.forces.has_states()) {
-        out.states = system_.forces.states();
-        if (at.s.size() == 0) out.at.s = out.states.initial();
-        if (at.u.size() == 0) out.at.u = system_.forces.inputs().initial();
-        check_states(out.states, out.at.s);
-        system_.forces.derivatives({at.time, at.q, at.qd, kin, out.at.s, out.at.u}, forces_, out.state_derivatives);
-    } else {
-        out.states = {};
-        system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
-    }
+    out.states = system_.forces.states();
+    if (at.s.size() == 0) out.at.s = out.states.initial();
+    if (at.u.size() == 0) out.at.u = system_.forces.inputs().initial();
+    check_states(out.states, out.at.s);
+    system_.forces.derivatives({out.at, kin}, forces_);
     // Exchanged, not moved: the next call writes into the matrices that `out` had.
     std::swap(out.elastic, forces_.elastic);
     std::swap(out.gravity, forces_.gravity);
     std::swap(out.loads, forces_.loads);
     std::swap(out.damping, forces_.damping);
+    std::swap(out.state_derivatives, forces_.states);
     for (Matrix* m : {&out.constraints, &out.reactions, &out.constraint_rates, &out.constraint_accelerations})
         m->resize(0, 0);
     if (!system_.loops.empty()) add_loops(kin, out);
@@ -94,7 +90,7 @@ void Lineariser::linearise(const OperatingPoint& at, Linearisation& out) {
 
 void Lineariser::check_loops(const Kinematics& kin, const Linearisation& out) const {
     const Loops& loops = system_.loops;
-    const OperatingPoint& at = out.at;
+    const DynamicState& at = out.at;
     for (int i = 0; i < system_.model.size(); ++i)
         if (loops_ == LoopState::at_rest && loops.involves(i) && at.qd(i) != 0)
             throw InputError(text(in_linearisation, ": coordinate '", out.coordinates[i].name, "' of a loop"), "rate",
@@ -113,7 +109,7 @@ void Lineariser::check_loops(const Kinematics& kin, const Linearisation& out) co
 
 void Lineariser::add_loops(const Kinematics& kin, Linearisation& out) {
     const Loops& loops = system_.loops;
-    const OperatingPoint& at = out.at;
+    const DynamicState& at = out.at;
     const Eigen::Index n = system_.model.size();
     if (at.lambda.size() == 0) out.at.lambda.setZero(loops.size());
     require_size(in_linearisation, "multipliers of loops", at.lambda, loops.size());
@@ -133,7 +129,7 @@ void Lineariser::add_loops(const Kinematics& kin, Linearisation& out) {
         gradient_rates_->at(at.time, at.q, at.qd, at.qdd, out.constraint_rates, out.constraint_accelerations);
 }
 
-Linearisation linearise(const System& system, const OperatingPoint& at, LoopState loops) {
+Linearisation linearise(const System& system, const DynamicState& at, LoopState loops) {
     Linearisation lin;
     with_memory([&] { return text("the linearisation of ", system.model.size(), " coordinates"); },
                 [&] { Lineariser(system, loops).linearise(at, lin); });

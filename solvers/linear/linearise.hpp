@@ -6,7 +6,6 @@
 #include "mbs/loops/gradient_rates.hpp"
 #include "mbs/system/system.hpp"
 #include "solvers/algebra/grouped_matrix.hpp"
-#include "solvers/linear/operating_point.hpp"
 
 #include <optional>
 #include <string>
@@ -25,7 +24,7 @@ struct Linearisation {
     Matrix gravity;     ///< -dQ/dq of gravity
     Matrix loads;       ///< -dQ/dq of wrenches, user forces and elements with states
     Matrix inertial;    ///< d(g qdd + Gamma qd qd)/dq
-    OperatingPoint at;
+    DynamicState at;
     CoordinateTable coordinates;
     /// With states s: Q_s ds stands on the right, and ds' = f_q dq + f_qd dq' + f_s ds. Inputs are held.
     StateDerivatives state_derivatives = {};
@@ -64,7 +63,7 @@ public:
     ///             allocates or is differenced.  Cost O(n^2).
     /// @throws InputError for vectors of the wrong size, and for values that are not finite, with the coordinate's
     /// name; for loops that are open or in motion where they may not be
-    void linearise(const OperatingPoint& at, Linearisation& out);
+    void linearise(const DynamicState& at, Linearisation& out);
 
 private:
     void check_loops(const Kinematics& kin, const Linearisation& out) const;
@@ -78,7 +77,7 @@ private:
 };
 
 /// A single linearisation with a temporary Lineariser. @throws also MemoryError
-Linearisation linearise(const System& system, const OperatingPoint& at, LoopState loops = LoopState::at_rest);
+Linearisation linearise(const System& system, const DynamicState& at, LoopState loops = LoopState::at_rest);
 
 /// How states s of first order couple to the rows x of a system of second order:
 ///

@@ -21,7 +21,7 @@ PeriodicSteadyState periodic_state(const System& system, const RotorMap& rotor, 
     return state;
 }
 
-OperatingPoint standstill(const System& system, int spin, double azimuth) {
+DynamicState standstill(const System& system, int spin, double azimuth) {
     SteadyOptions options;
     options.azimuth = azimuth;
     const SteadyState state = steady_state(system, spin, options);

@@ -9,8 +9,8 @@
 
 namespace cardan::solvers {
 
-OperatingPoint PeriodicSteadyState::at(double psi) const {
-    OperatingPoint point;
+DynamicState PeriodicSteadyState::at(double psi) const {
+    DynamicState point;
     point.time = psi / rotor_speed;
     point.q = coefficients * fourier_basis(psi, harmonics());
     point.qd = rotor_speed * (coefficients * fourier_basis(psi, harmonics(), 1));
@@ -21,7 +21,10 @@ OperatingPoint PeriodicSteadyState::at(double psi) const {
     }
     point.q(spin) = psi;
     point.qd(spin) = rotor_speed;
-    if (state_coefficients.rows() > 0) point.s = state_coefficients * fourier_basis(psi, harmonics());
+    if (state_coefficients.rows() > 0) {
+        point.s = state_coefficients * fourier_basis(psi, harmonics());
+        point.s_rate = rotor_speed * (state_coefficients * fourier_basis(psi, harmonics(), 1));
+    }
     if (multipliers.rows() > 0) point.lambda = multipliers * fourier_basis(psi, harmonics());
     point.u = inputs;
     return point;

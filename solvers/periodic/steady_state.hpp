@@ -77,7 +77,7 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
 
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }
     /// All coordinates with rates and accelerations, states and multipliers; time = psi / rotor_speed.
-    OperatingPoint at(double psi) const;
+    DynamicState at(double psi) const;
     /// Largest amplitude sqrt(hc_j^2 + hs_j^2) of any coordinate in harmonic j (|h0| for j = 0), rad or m.
     double amplitude(int harmonic) const;
     /// Amplitude of the last two harmonics relative to the largest of all (mean excluded); 0 if nothing moves.

@@ -72,13 +72,13 @@ EquationsOfMotion::EquationsOfMotion(const System& system, std::vector<Drive> dr
     const int n = system.model.size();
     for (int i = 0; i < n; ++i)
         if (!entry(driven_, i)) free_.push_back(i);
-    for (Vector* v : {&q_, &qd_, &qdd_, &Q_, &tau_, &actuator_, &all_, &product_}) v->setZero(n);
-    s_ = f_ = Vector::Zero(system.forces.states().size());
-    u_ = system.forces.inputs().initial();
+    for (Vector* v : {&now_.q, &now_.qd, &now_.qdd, &Q_, &tau_, &now_.actuator, &all_, &product_}) v->setZero(n);
+    now_.s = now_.s_rate = Vector::Zero(system.forces.states().size());
+    now_.u = system.forces.inputs().initial();
     if (system.loops.empty()) return;
     loops_ = std::make_unique<ConstrainedMotion>(system, driven_);
     loop_gradients_.resize(system.loops.size(), size());
-    q_ = q;
+    now_.q = q;
     require_closed();
 }
 
@@ -87,7 +87,7 @@ EquationsOfMotion::~EquationsOfMotion() = default;
 // At the first time and position.
 void EquationsOfMotion::require_closed() {
     drive_at(inside_);
-    const ConstrainedMotion::Gap gap = loops_->gap_at_start(inside_, q_, workspace_);
+    const ConstrainedMotion::Gap gap = loops_->gap_at_start(inside_, now_.q, workspace_);
     if (gap.ratio <= 1) return;
     const Loops::Equation& equation = entry(loops_->loops().equations(), gap.equation);
     throw InputError(text(in_integration, ": ", loops_->loops().describe(equation.loop)),
@@ -128,8 +128,8 @@ void EquationsOfMotion::set_forces(const Forces* forces) {
 }
 
 void EquationsOfMotion::set_inputs(const Vector& u) {
-    require_size(in_integration, "inputs", u, u_.size());
-    u_ = u;
+    require_size(in_integration, "inputs", u, now_.u.size());
+    now_.u = u;
 }
 
 std::vector<double> EquationsOfMotion::breaks() const {
@@ -144,20 +144,20 @@ std::vector<double> EquationsOfMotion::breaks() const {
 void EquationsOfMotion::drive_at(double time) {
     for (const Drive& drive : drives_) {
         const MotionState state = drive.motion.at(time, inside_);
-        q_(drive.coordinate) = state.position;
-        qd_(drive.coordinate) = state.velocity;
-        qdd_(drive.coordinate) = state.acceleration;
+        now_.q(drive.coordinate) = state.position;
+        now_.qd(drive.coordinate) = state.velocity;
+        now_.qdd(drive.coordinate) = state.acceleration;
     }
 }
 
 void EquationsOfMotion::expand(double time, const double* x) {
-    time_ = time;
+    now_.time = time;
     const std::size_t m = free_.size();
     for (std::size_t i = 0; i < m; ++i) {
-        q_(free_[i]) = x[i];
-        qd_(free_[i]) = x[m + i];
+        now_.q(free_[i]) = x[i];
+        now_.qd(free_[i]) = x[m + i];
     }
-    std::copy_n(x + 2 * m, states(), s_.data());
+    std::copy_n(x + 2 * m, states(), now_.s.data());
     drive_at(time);
 }
 
@@ -165,7 +165,7 @@ bool EquationsOfMotion::all_finite(const Vector& values, const char* quantity) {
     if (values.allFinite()) return true;
     int i = 0;
     while (std::isfinite(values(i))) ++i;
-    problem_ = text("the ", quantity, " of '", model().coordinates()[i].name, "' at ", time_, " s is ", values(i));
+    problem_ = text("the ", quantity, " of '", model().coordinates()[i].name, "' at ", now_.time, " s is ", values(i));
     return false;
 }
 
@@ -173,20 +173,17 @@ bool EquationsOfMotion::states_finite(const Vector& values, const char* quantity
     if (values.allFinite()) return true;
     int i = 0;
     while (std::isfinite(values(i))) ++i;
-    problem_ = text("the ", quantity, " '", state_table()[i].name, "' at ", time_, " s is ", values(i));
+    problem_ = text("the ", quantity, " '", state_table()[i].name, "' at ", now_.time, " s is ", values(i));
     return false;
 }
 
 bool EquationsOfMotion::motion_finite() {
-    return all_finite(q_, "position") && all_finite(qd_, "rate") && states_finite(s_, "state");
+    return all_finite(now_.q, "position") && all_finite(now_.qd, "rate") && states_finite(now_.s, "state");
 }
 
 // Forces, and rates of the states, at the state of kin_.
 void EquationsOfMotion::evaluate_forces() {
-    if (forces_->has_states())
-        forces_->evaluate(input(), Q_, f_);
-    else
-        forces_->generalised_forces(*kin_, time_, q_, qd_, Q_);
+    forces_->generalised_forces(view(), Q_, now_.s_rate);
 }
 
 bool EquationsOfMotion::solve(double time, const double* x) {
@@ -197,28 +194,28 @@ bool EquationsOfMotion::solve(double time, const double* x) {
 // At the state that has been set.
 bool EquationsOfMotion::solve() {
     if (!motion_finite()) return false;
-    const Kinematics& kin = kin_.emplace(kinematics(model(), q_, workspace_));
+    const Kinematics& kin = kin_.emplace(kinematics(model(), now_.q, workspace_));
     evaluate_forces();
-    if (!all_finite(Q_, "generalised force") || !states_finite(f_, "rate of the state")) return false;
-    forward_.solve(kin, qd_, Q_, qdd_, actuator_);
-    if (loops_ && !loops_->constrain(kin, time_, q_, qd_, Q_, forward_, qdd_, actuator_)) {
+    if (!all_finite(Q_, "generalised force") || !states_finite(now_.s_rate, "rate of the state")) return false;
+    forward_.solve(kin, now_.qd, Q_, now_.qdd, now_.actuator);
+    if (loops_ && !loops_->constrain(kin, now_.time, now_.q, now_.qd, Q_, forward_, now_.qdd, now_.actuator)) {
         problem_ = loops_->problem();
         return false;
     }
-    return all_finite(qdd_, "acceleration");
+    return all_finite(now_.qdd, "acceleration");
 }
 
 bool EquationsOfMotion::project(double time, double* x) {
     if (!loops_) return true;
     expand(time, x);
-    if (!loops_->project(time, q_, qd_, workspace_)) {
+    if (!loops_->project(time, now_.q, now_.qd, workspace_)) {
         problem_ = loops_->problem();
         return false;
     }
     const std::size_t m = free_.size();
     for (std::size_t i = 0; i < m; ++i) {
-        x[i] = q_(free_[i]);
-        x[m + i] = qd_(free_[i]);
+        x[i] = now_.q(free_[i]);
+        x[m + i] = now_.qd(free_[i]);
     }
     return true;
 }
@@ -226,7 +223,7 @@ bool EquationsOfMotion::project(double time, double* x) {
 void EquationsOfMotion::require_closed_rates(double time, const double* x) {
     if (!loops_) return;
     expand(time, x);
-    const ConstrainedMotion::Gap opening = loops_->opening_at_start(time, q_, qd_, workspace_);
+    const ConstrainedMotion::Gap opening = loops_->opening_at_start(time, now_.q, now_.qd, workspace_);
     if (opening.ratio <= 1) return;
     const int loop = entry(loops_->loops().equations(), opening.equation).loop;
     throw InputError(text(in_integration, ": ", loops_->loops().describe(loop)),
@@ -241,22 +238,22 @@ LockHold EquationsOfMotion::hold(int equation) {
 
 bool EquationsOfMotion::accelerations(double time, const double* x, double* xdd) {
     if (!solve(time, x)) return false;
-    for (std::size_t i = 0; i < free_.size(); ++i) xdd[i] = qdd_(free_[i]);
-    std::copy_n(f_.data(), states(), xdd + size());
+    for (std::size_t i = 0; i < free_.size(); ++i) xdd[i] = now_.qdd(free_[i]);
+    std::copy_n(now_.s_rate.data(), states(), xdd + size());
     return true;
 }
 
 bool EquationsOfMotion::residual(double time, const double* x, const double* xdd, double* r) {
     expand(time, x);
-    for (std::size_t i = 0; i < free_.size(); ++i) qdd_(free_[i]) = xdd[i];
-    if (!motion_finite() || !all_finite(qdd_, "acceleration")) return false;
-    const Kinematics& kin = kin_.emplace(kinematics(model(), q_, workspace_));
+    for (std::size_t i = 0; i < free_.size(); ++i) now_.qdd(free_[i]) = xdd[i];
+    if (!motion_finite() || !all_finite(now_.qdd, "acceleration")) return false;
+    const Kinematics& kin = kin_.emplace(kinematics(model(), now_.q, workspace_));
     evaluate_forces();
-    inverse_dynamics<double>(kin, qd_, qdd_, tau_);
+    inverse_dynamics<double>(kin, now_.qd, now_.qdd, tau_);
     for (std::size_t i = 0; i < free_.size(); ++i) r[i] = tau_(free_[i]) - Q_(free_[i]);
-    for (int i = 0; i < states(); ++i) r[size() + i] = xdd[size() + i] - f_(i);
+    for (int i = 0; i < states(); ++i) r[size() + i] = xdd[size() + i] - now_.s_rate(i);
     return all_finite(tau_, "inertial force") && all_finite(Q_, "generalised force") &&
-           states_finite(f_, "rate of the state");
+           states_finite(now_.s_rate, "rate of the state");
 }
 
 bool EquationsOfMotion::linearise(double time, const double* x) {
@@ -267,23 +264,23 @@ bool EquationsOfMotion::linearise(double time, const double* x) {
 bool EquationsOfMotion::linearise(double time, const double* x, const double* driven) {
     expand(time, x);
     for (const Drive& drive : drives_) {
-        q_(drive.coordinate) = *driven++;
-        qd_(drive.coordinate) = *driven++;
-        qdd_(drive.coordinate) = *driven++;
+        now_.q(drive.coordinate) = *driven++;
+        now_.qd(drive.coordinate) = *driven++;
+        now_.qdd(drive.coordinate) = *driven++;
     }
     return derive();
 }
 
 void EquationsOfMotion::driven_state(double* out) const {
     for (const Drive& drive : drives_)
-        for (const Vector* of : {&q_, &qd_, &qdd_}) *out++ = (*of)(drive.coordinate);
+        for (const Vector* of : {&now_.q, &now_.qd, &now_.qdd}) *out++ = (*of)(drive.coordinate);
 }
 
 bool EquationsOfMotion::derive() {
     if (!solve()) return false;
     differentiate();
     const PivotStatus status = factor_.factorise(g_);
-    if (!status) problem_ = text("at ", time_, " s: ", status.message());
+    if (!status) problem_ = text("at ", now_.time, " s: ", status.message());
     return status.ok();
 }
 
@@ -291,16 +288,13 @@ void EquationsOfMotion::linearise_residual() {
     differentiate();
 }
 
-// At the state that kin_, qd_ and qdd_ are of.
+// At the state that kin_, now_.qd and now_.qdd are of.
 void EquationsOfMotion::differentiate() {
     const Kinematics& kin = *kin_;
     ForceDerivatives& forces = force_derivatives_;
-    if (forces_->has_states())
-        forces_->derivatives(input(), forces, state_derivatives_);
-    else
-        forces_->derivatives(kin, time_, q_, qd_, forces);
+    forces_->derivatives(view(), forces);
     metric(kin, g_);
-    inverse_dynamics_derivatives(kin, qd_, qdd_, tau_q_, tau_qd_);
+    inverse_dynamics_derivatives(kin, now_.qd, now_.qdd, tau_q_, tau_qd_);
     stiffness_ = tau_q_;
     damping_ = tau_qd_;
     on_branches_ = damping_.add(forces.damping);
@@ -310,7 +304,7 @@ void EquationsOfMotion::differentiate() {
     // Of the stiffness that the loops' forces have as they turn, what fits on the branches: the rest would only speed
     // up the iteration, at the cost of a full matrix.
     loop_stiffness_.setZero(model().size(), model().size());
-    loops_->loops().add_second_gradient(kin, time_, q_, -loops_->lambda(), loop_stiffness_);
+    loops_->loops().add_second_gradient(kin, now_.time, now_.q, -loops_->lambda(), loop_stiffness_);
     stiffness_.add(loop_stiffness_);
     // Kept with the rest: those of the states evaluated in between are of other positions.
     loop_rank_ = std::ssize(loops_->independent());
@@ -366,14 +360,7 @@ void EquationsOfMotion::gather(const Vector& all, VectorOut unknowns) const {
 
 bool EquationsOfMotion::complete(double time, const double* x, DynamicState& out) {
     if (!solve(time, x)) return false;
-    out.time = time;
-    out.q = q_;
-    out.qd = qd_;
-    out.qdd = qdd_;
-    out.actuator = actuator_;
-    out.s = s_;
-    out.s_rate = f_;
-    out.u = u_;
+    out = now_;
     if (loops_) out.lambda = loops_->lambda();
     return true;
 }
@@ -381,16 +368,16 @@ bool EquationsOfMotion::complete(double time, const double* x, DynamicState& out
 void EquationsOfMotion::positions(double time, const double* x, DynamicState& out) {
     expand(time, x);
     out.time = time;
-    out.q = q_;
-    out.qd = qd_;
-    out.s = s_;
+    out.q = now_.q;
+    out.qd = now_.qd;
+    out.s = now_.s;
 }
 
 bool EquationsOfMotion::powers(double time, const double* x, Powers& out) {
     if (!solve(time, x)) return false;
-    out = {Q_.dot(qd_), forces_->dissipation(qd_), actuator_.dot(qd_), {}};
-    if (loops_) out.drives += loops_->power(time_, q_);
-    if (forces_->has_states()) out.states = forces_->state_energy(input());
+    out = {Q_.dot(now_.qd), forces_->dissipation(now_.qd), now_.actuator.dot(now_.qd), {}};
+    if (loops_) out.drives += loops_->power(now_.time, now_.q);
+    if (forces_->has_states()) out.states = forces_->state_energy(view());
     return true;
 }
 
@@ -399,19 +386,19 @@ double EquationsOfMotion::kinetic_energy(const DynamicState& at) {
 }
 
 double EquationsOfMotion::potential_energy(const DynamicState& at) {
-    return forces_->potential_energy({at.time, at.q, at.qd, kinematics(model(), at.q, workspace_), at.s, at.u});
+    return forces_->potential_energy({at, kinematics(model(), at.q, workspace_)});
 }
 
 double EquationsOfMotion::stored_energy(const DynamicState& at) {
     if (!forces_->has_states()) return 0;
-    return forces_->state_energy({at.time, at.q, at.qd, kinematics(model(), at.q, workspace_), at.s, at.u}).stored;
+    return forces_->state_energy({at, kinematics(model(), at.q, workspace_)}).stored;
 }
 
-double EquationsOfMotion::evaluate(const std::function<double(const ForceInput&)>& function, double time,
+double EquationsOfMotion::evaluate(const std::function<double(const StateView&)>& function, double time,
                                    const double* x) {
     expand(time, x);
-    kin_.emplace(kinematics(model(), q_, workspace_));
-    return function(input());
+    kin_.emplace(kinematics(model(), now_.q, workspace_));
+    return function(view());
 }
 
 std::string EquationsOfMotion::name_of(int index) const {

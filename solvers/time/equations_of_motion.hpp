@@ -33,17 +33,6 @@ struct Drive {
     Motion motion = Motion::constant(0);
 };
 
-/// All coordinates at a time, with the forces of the drives and the states beside the coordinates.
-struct DynamicState {
-    double time = 0;
-    Vector q, qd, qdd;
-    Vector actuator;     ///< generalised force of the drive on its coordinate, N m or N; zero on free ones
-    Vector s = {};       ///< Forces::states()
-    Vector s_rate = {};  ///< ds/dt
-    Vector u = {};       ///< Forces::inputs()
-    Vector lambda = {};  ///< multipliers of the loops, Loops::equations()
-};
-
 /// Rates of work at a state, W.
 struct Powers {
     double forces = 0;       ///< Q . qd of all force elements
@@ -79,7 +68,7 @@ public:
     const std::vector<int>& unknowns() const { return free_; }
     int size() const { return static_cast<int>(free_.size()); }
     /// Number of states.
-    int states() const { return static_cast<int>(s_.size()); }
+    int states() const { return static_cast<int>(now_.s.size()); }
     /// Lengths of x and of its second part, of which xdd are the rates.
     int length() const { return 2 * size() + states(); }
     int rates() const { return size() + states(); }
@@ -97,7 +86,7 @@ public:
     const Forces& forces() const { return *forces_; }
 
     /// Values of the inputs, Forces::inputs(), from now on.
-    const Vector& inputs() const { return u_; }
+    const Vector& inputs() const { return now_.u; }
     void set_inputs(const Vector& u);
 
     /// Breaks of all motions and loads, ascending, without duplicates.
@@ -140,7 +129,7 @@ public:
     void subtract_stiffness(double c, const Vector& v, Vector& y);
     const std::vector<StateGroup>& state_groups() const { return forces_->state_groups(); }
     /// Derivatives of the states' part at the last linearise...(), by all coordinates.
-    const StateDerivatives& state_derivatives() const { return state_derivatives_; }
+    const StateDerivatives& state_derivatives() const { return force_derivatives_.states; }
     /// From the unknowns to all coordinates, zero for the driven ones, and back.
     void spread(VectorIn unknowns, Vector& all) const;
     void gather(const Vector& all, VectorOut unknowns) const;
@@ -168,7 +157,7 @@ public:
     /// Stored in elements with states, J.
     double stored_energy(const DynamicState& at);
     /// Evaluates a user function at a state.
-    double evaluate(const std::function<double(const ForceInput&)>& function, double time, const double* x);
+    double evaluate(const std::function<double(const StateView&)>& function, double time, const double* x);
 
     /// What went wrong when a function returned false.
     const std::string& problem() const { return problem_; }
@@ -178,7 +167,7 @@ public:
 
 private:
     void drive_at(double time);
-    ForceInput input() const { return {time_, q_, qd_, *kin_, s_, u_}; }
+    StateView view() const { return {now_, *kin_}; }
     void evaluate_forces();
     void expand(double time, const double* x);
     void require_closed();
@@ -206,10 +195,9 @@ private:
     Matrix loop_stiffness_, loop_gradients_;
     Eigen::Index loop_rank_ = 0;
     bool on_branches_ = true;  ///< and that is all of it
-    double inside_, time_ = 0;
-    Vector q_, qd_, qdd_, Q_, tau_, actuator_, all_, product_;
-    Vector s_, f_, u_;  ///< states, their rates, inputs
-    StateDerivatives state_derivatives_;
+    double inside_;
+    DynamicState now_;  ///< at which everything was evaluated last; multipliers: loops_
+    Vector Q_, tau_, all_, product_;
     std::string problem_;
 };
 

@@ -118,8 +118,8 @@ void Integrator::pass_piece_end() {
         if (!equations_.complete(now, x_.data(), state_))
             throw NumericalError(text(in_integration, ": no forces at ", now, " s: ", equations_.problem()));
         u_ = equations_.inputs();
-        controllers_.run({0, state_, kinematics(model(), state_.q, workspace_), equations_.forces()}, resolution(now),
-                         u_,
+        controllers_.run({state_, kinematics(model(), state_.q, workspace_), equations_.forces(), loops()},
+                         resolution(now), u_,
                          [&](Drive drive) { equations_.set_motion(drive.coordinate, std::move(drive.motion), now); });
         equations_.set_inputs(u_);
     }

@@ -65,7 +65,7 @@ enum class AfterEvent : std::uint8_t {
 /// outputs: two changes within one step are missed; limit the step size to prevent that.
 struct Event {
     std::string name = {};
-    std::function<double(const ForceInput&)> function = {};
+    std::function<double(const StateView&)> function = {};
     int direction = 0;  ///< 1: rising through zero, -1: falling, 0: both
     /// May call set_motion(), set_forces() and set_state(); state() is the state at the event. Empty: stop.
     std::function<AfterEvent(Integrator&)> action = {};

@@ -91,7 +91,7 @@ void Integrator::watch_free_bodies() {
     for (const Model::Free& body : equations_.model().free_bodies())
         options_.events.push_back(
             {.name = text("coordinates of '", body.name, "'"),
-             .function = [&body](const ForceInput& at) { return free_chart_quality(body, at.q) - 0.5; },
+             .function = [&body](const StateView& at) { return free_chart_quality(body, at.q) - 0.5; },
              .direction = -1,
              .action =
                  [&body](Integrator& run) {

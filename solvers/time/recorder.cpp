@@ -154,16 +154,9 @@ void Recorder::sample(Integrator& integrator, double* values) {
     }
     if (statistics_) values = std::ranges::copy(values_of(integrator.statistics()), values).out;
     if (more_.empty()) return;
-    const Kinematics kin = kinematics(*model_, state.q, workspace_);
-    const Forces& forces = integrator.forces();
-    std::vector<LoopLoad> loops;
-    if (state.lambda.size() > 0) integrator.loops().add_loads(kin, state.lambda, loops);
-    const JointLoads loads =
-        joint_loads({state.time, state.q, state.qd, kin, state.s, state.u}, forces, state.qdd, std::move(loops));
-    const ChannelInput input{state.time, state.q, state.qd, state.qdd,    state.actuator, kin,
-                             forces,     loads,   state.s,  state.s_rate, state.u};
+    const DynamicView at(state, kinematics(*model_, state.q, workspace_), integrator.forces(), integrator.loops());
     for (const ChannelGroup& group : more_) {
-        group.sample(input, values);
+        group.sample(at, values);
         values += group.channels.size();
     }
 }

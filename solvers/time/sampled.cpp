@@ -105,10 +105,10 @@ double SampledControllers::next() const {
     return time;
 }
 
-void SampledControllers::run(const SampleInput& at, double resolution, Vector& u,
+void SampledControllers::run(const DynamicView& at, double resolution, Vector& u,
                              const std::function<void(Drive)>& set_motion) {
     for (Running& controller : controllers_) {
-        if (time_of(controller) > at.state.time + resolution) continue;
+        if (time_of(controller) > at.time + resolution) continue;
         update(controller, at, u);
         follow(controller, u);
         ++controller.next;
@@ -126,17 +126,17 @@ void SampledControllers::follow(Running& controller, const Vector& u) {
     }
 }
 
-void SampledControllers::update(Running& controller, const SampleInput& at, Vector& u) {
+void SampledControllers::update(Running& controller, const DynamicView& at, Vector& u) {
     const auto put = [&](const Vector& values) {
         for (Eigen::Index i = 0; i < values.size(); ++i) u(entry(controller.at, i)) = values(i);
     };
     if (controller.own.delayed) put(controller.pending);
     Vector& values = controller.values;
     for (Eigen::Index i = 0; i < values.size(); ++i) values(i) = u(entry(controller.at, i));
-    controller.own.update({controller.next, at.state, at.kinematics, at.forces}, values);
+    controller.own.update(controller.next, at, values);
     for (Eigen::Index i = 0; i < values.size(); ++i)
         if (!std::isfinite(values(i)))
-            throw NumericalError(text(named(controller.own), ": at ", at.state.time, " s its output '",
+            throw NumericalError(text(named(controller.own), ": at ", at.time, " s its output '",
                                       (*inputs_)[entry(controller.at, i)].name, "' is ", values(i)));
     if (controller.own.delayed)
         controller.pending = values;

@@ -2,6 +2,7 @@
 /// Controllers that run every so often, as on a computer, and hold their output in between.
 #pragma once
 
+#include "mbs/system/dynamic_view.hpp"
 #include "mbs/system/input_drive.hpp"
 #include "solvers/time/equations_of_motion.hpp"
 
@@ -12,14 +13,6 @@
 #include <vector>
 
 namespace cardan::solvers {
-
-/// What a sampled controller sees.
-struct SampleInput {
-    long sample;  ///< 0, 1, 2 ...
-    const DynamicState& state;
-    const Kinematics& kinematics;
-    const Forces& forces;
-};
 
 /// A controller that is called at exact multiples of its period, first + k period. The integration ends a step there,
 /// so that no step spans a change of its output. What is recorded at that time holds the output before.
@@ -46,8 +39,9 @@ struct SampledController {
     std::vector<InputDrive> drives = {};
     /// What it computes at a sample is put out at the next one: the time that it takes to compute.
     bool delayed = false;
-    /// @param u  in: the present values of its inputs, out: the new ones
-    std::function<void(const SampleInput& in, VectorOut u)> update = {};
+    /// @param sample  0, 1, 2 ...
+    /// @param u       in: the present values of its inputs, out: the new ones
+    std::function<void(long sample, const DynamicView& at, VectorOut u)> update = {};
     /// Its memory for checkpoints, and back; both empty: it has none. `keeps_to_itself`: it has one that it does not
     /// give away; then there are no checkpoints.
     std::function<std::vector<double>()> save = {};
@@ -89,7 +83,7 @@ public:
     /// @param u  all inputs of the system
     /// @param set_motion  takes the new motions of the coordinates that follow them
     /// @throws NumericalError for an output that is not finite, with its time
-    void run(const SampleInput& at, double resolution, Vector& u, const std::function<void(Drive)>& set_motion);
+    void run(const DynamicView& at, double resolution, Vector& u, const std::function<void(Drive)>& set_motion);
 
     /// False: one of them keeps its memory to itself, and state() throws InputError.
     bool tell_their_state() const;
@@ -110,7 +104,7 @@ private:
     static double time_of(const Running& controller) {
         return controller.own.first + static_cast<double>(controller.next) * controller.own.period;
     }
-    void update(Running& controller, const SampleInput& at, Vector& u);
+    void update(Running& controller, const DynamicView& at, Vector& u);
 
     std::vector<Running> controllers_;
     const InputTable* inputs_;

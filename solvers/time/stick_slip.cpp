@@ -151,7 +151,7 @@ std::vector<Event> stick_slip(const System& system, std::vector<DryFriction> fri
         // A value of 1: nothing to watch for.
         events.push_back({.name = text(contact.own.name, " stands still"),
                           .function =
-                              [contacts, &contact](const ForceInput& at) {
+                              [contacts, &contact](const StateView& at) {
                                   const int direction = contact.own.state->direction;
                                   const double standstill = contact.own.standstill;
                                   return direction == 0 ? 1 : (direction * contact.sliding(at.qd) + standstill);

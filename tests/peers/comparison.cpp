@@ -24,7 +24,7 @@ Vector gravity_forces(const Kinematics& kin, const Vec3& gravity, const Vector& 
     ForceSet set;
     set.set_gravity(gravity);
     Vector Q(kin.model().size());
-    Forces(set, kin.model()).generalised_forces(kin, 0, q, qd, Q);
+    Forces(set, kin.model()).generalised_forces({{.q = q, .qd = qd}, kin}, Q);
     return Q;
 }
 

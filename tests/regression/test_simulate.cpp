@@ -42,7 +42,7 @@ solvers::History by_hand(const std::vector<double>& times) {
     periodic.rotor_speed = speed;
     const solvers::PeriodicSteadyState state = solvers::shooting(system, turbine.rotor().spin, periodic);
     require_result(state);
-    const solvers::OperatingPoint start = state.at(0);
+    const DynamicState start = state.at(0);
     solvers::IntegrationOptions options;
     options.method = solvers::Method::bdf;
     options.tolerances = {1e-8, 1e-10, 1e-10, 1e-9, 1e-9};

@@ -33,9 +33,9 @@ struct SmallRotor {
     System system;
     RotorMap map;  ///< with part "blade" and a line along blade 1
 
-    solvers::OperatingPoint spinning(double Omega, double azimuth = 0) const {
+    DynamicState spinning(double Omega, double azimuth = 0) const {
         const int n = system.model.size();
-        solvers::OperatingPoint at{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0.0};
+        DynamicState at = at_rest(n);
         at.q(map.spin) = azimuth;
         at.qd(map.spin) = Omega;
         return at;

@@ -24,7 +24,7 @@ SmallRotor rotor_on_elastic_support(const Vec3& gravity = Vec3::Zero()) {
     return small_rotor(spec);
 }
 
-void check_same(const OperatingPoint& a, const OperatingPoint& b) {
+void check_same(const DynamicState& a, const DynamicState& b) {
     CHECK(a.q == b.q);
     CHECK(a.qd == b.qd);
     CHECK(a.qdd == b.qdd);
@@ -98,7 +98,7 @@ TEST_CASE("reuse: lineariser, restriction and transformation give what fresh one
     Linearisation lin;
     SecondOrderSystem system;
     for (const double speed : mixed_speeds) {
-        const OperatingPoint at = rotor.spinning(speed, 0.7);
+        const DynamicState at = rotor.spinning(speed, 0.7);
         lineariser.linearise(at, lin);
         restrict_to(lin, rotor.unknowns(), -1, system);
         check_same(system, rotor.rotating(speed, 0.7));

@@ -32,7 +32,7 @@ TEST_CASE("sizes: vectors and matrices that do not fit are refused by the solver
     REQUIRE(solver.solve(good) == found.size());
     const ColemanTransform coleman(rotor.map, rotor.unknowns());
     for (const int size : {0, 1, n - 2, n + 1, 50 * n}) {
-        OperatingPoint q = rotor.spinning(2), qd = q, qdd = q;
+        DynamicState q = rotor.spinning(2), qd = q, qdd = q;
         q.q.setZero(size);
         qd.qd.setZero(size);
         qdd.qdd.setZero(size);
@@ -121,13 +121,14 @@ TEST_CASE("bad input: values that are not finite, invalid tolerances, empty func
     const SmallRotor rotor = small_rotor();
     const System& system = rotor.system;
     for (const double bad : {not_a_number, infinite, -infinite}) {
-        for (Vector OperatingPoint::*part : {&OperatingPoint::q, &OperatingPoint::qd, &OperatingPoint::qdd}) {
-            OperatingPoint at = rotor.spinning(2);
+        for (Vector DynamicState::*part :
+             std::initializer_list<Vector DynamicState::*>{&DynamicState::q, &DynamicState::qd, &DynamicState::qdd}) {
+            DynamicState at = rotor.spinning(2);
             (at.*part)(2) = bad;
             check_refused([&] { linearise(system, at); },
                           {"linearisation", system.model.coordinates()[2].name, text("= ", bad), "finite"});
         }
-        OperatingPoint late = rotor.spinning(2);
+        DynamicState late = rotor.spinning(2);
         late.time = bad;
         check_refused([&] { linearise(system, late); }, {"time [s]", text(bad)});
         Vector start = Vector::Zero(system.model.size());

@@ -31,7 +31,7 @@ Simulation::Response Simulation::response(double time, const Vector& q, const Ve
     for (int k = 0; k < model.size(); ++k)
         if (drive_ && forward_.is_driven(static_cast<int>(k))) out.qdd(k) = drive_(time, k);
     const Kinematics kin = kinematics(model, q, workspace_);
-    system_->forces.generalised_forces(kin, time, q, qd, Q);
+    system_->forces.generalised_forces({{.time = time, .q = q, .qd = qd}, kin}, Q);
     forward_.solve(kin, qd, Q, out.qdd, out.actuator);
     return out;
 }
@@ -46,7 +46,8 @@ void Simulation::advance(double duration, int steps) {
         const Vector q = y.head(n), qd = y.segment(n, n);
         const Response now = response(t, q, qd);
         double power = 0;
-        for (const ForceReport& element : system_->forces.report(kinematics(system_->model, q, workspace_), t, q, qd))
+        for (const ForceReport& element :
+             system_->forces.report({{.time = t, .q = q, .qd = qd}, kinematics(system_->model, q, workspace_)}))
             power += element.power;
         Vector rates(2 * n + 2);
         rates << qd, now.qdd, power, now.actuator.dot(qd);
@@ -67,7 +68,7 @@ double Simulation::kinetic_energy() {
 }
 
 double Simulation::potential_energy() {
-    return system_->forces.potential_energy(kin(), time_, q_, qd_);
+    return system_->forces.potential_energy({{.time = time_, .q = q_, .qd = qd_}, kin()});
 }
 
 }  // namespace cardan::testing

@@ -9,30 +9,25 @@ namespace cardan::testing {
 
 struct Evaluated {
     Vector Q, f;
-    ForceDerivatives forces;
-    StateDerivatives states;
+    ForceDerivatives by;
 };
-inline Evaluated evaluated(const System& system, const Vector& q, const Vector& qd, const Vector& s, const Vector& u,
-                           double time = 0) {
+inline Evaluated evaluated(const System& system, const State& state) {
     Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, q, workspace);
-    const ForceInput at{time, q, qd, kin, s, u};
-    Evaluated out{Vector(q.size()), Vector(s.size()), {}, {}};
-    system.forces.evaluate(at, out.Q, out.f);
-    system.forces.derivatives(at, out.forces, out.states);
+    const StateView at(state, kinematics(system.model, state.q, workspace));
+    Evaluated out{Vector(state.q.size()), Vector(state.s.size()), {}};
+    system.forces.generalised_forces(at, out.Q, out.f);
+    system.forces.derivatives(at, out.by);
     return out;
 }
 
 /// Allocations of a second evaluation, derivatives included.
-inline std::size_t allocations_of_evaluation(const System& system, const Vector& q, const Vector& qd, const Vector& s,
-                                             const Vector& u) {
+inline std::size_t allocations_of_evaluation(const System& system, const State& state) {
     Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, q, workspace);
-    const ForceInput at{0, q, qd, kin, s, u};
-    Evaluated out{Vector(q.size()), Vector(s.size()), {}, {}};
+    const StateView at(state, kinematics(system.model, state.q, workspace));
+    Evaluated out{Vector(state.q.size()), Vector(state.s.size()), {}};
     const auto evaluate = [&] {
-        system.forces.evaluate(at, out.Q, out.f);
-        system.forces.derivatives(at, out.forces, out.states);
+        system.forces.generalised_forces(at, out.Q, out.f);
+        system.forces.derivatives(at, out.by);
     };
     evaluate();
     return allocations(evaluate);

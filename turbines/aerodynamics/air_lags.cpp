@@ -146,7 +146,7 @@ int MachineAir::states() const {
     return parts_->lags ? parts_->lags->states : 0;
 }
 
-FieldInput MachineAir::input(const ForceInput& at, const Forces& forces) const {
+FieldInput MachineAir::input(const StateView& at, const Forces& forces) const {
     if (states() == 0 && parts_->wind_input.empty()) return at;
     return forces.field_input(name_of_air, at);
 }

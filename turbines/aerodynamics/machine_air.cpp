@@ -163,8 +163,8 @@ ChannelGroup MachineAir::channels() const {
                        .units = "W",
                        .long_name = "on blades, tower and nacelle, all their motion",
                        .frame = "ground"}};
-    group.sample = [air = *this](const ChannelInput& in, double* values) {
-        const FieldInput at = air.input({in.time, in.q, in.qd, in.kinematics, in.s, in.u}, in.forces);
+    group.sample = [air = *this](const DynamicView& in, double* values) {
+        const FieldInput at = air.input(in, in.forces);
         const Rotor now = air.rotor(at);
         values[0] = air.wind().at(in.time).at(now.centre).head<2>().norm();
         values[1] = now.force.x();

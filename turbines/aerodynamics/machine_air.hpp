@@ -68,7 +68,7 @@ public:
     int states() const;
     /// A motion with those of the system's states that are the air's.
     /// @param forces  of on()
-    FieldInput input(const ForceInput& at, const Forces& forces) const;
+    FieldInput input(const StateView& at, const Forces& forces) const;
     /// States that stay as they are while the machine moves as it does.
     Vector steady_states(const FieldInput& at) const;
     /// tau_1 of a dynamic wake by the mean induction and wind of a state, s: inflow_time().

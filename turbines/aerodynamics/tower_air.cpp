@@ -74,7 +74,7 @@ void find_force(const DragSite& site, const Mat3& R, double density, DragState& 
 class DragEvaluation {
 public:
     DragEvaluation(const Wind& wind, const std::vector<DragSite>& sites, const std::vector<int>& path,
-                   const ForceInput& at, DragScratch& scratch)
+                   const StateView& at, DragScratch& scratch)
         : sites_(sites), path_(path), scratch_(scratch), motion_(at, path, scratch.rates), wind_(wind.at(at.time)) {
         const WindAtPlaces air(wind_);
         scratch_.sites.resize(sites.size());
@@ -196,13 +196,13 @@ WrenchField TowerAir::field() const {
         .name = "air on the tower", .points = {}, .wrenches = {}, .jacobian = {}, .breaks = parts_->wind.breaks()};
     field.points.reserve(parts_->points.size());
     for (const AirPoint& point : parts_->points) field.points.push_back(point.at);
-    field.wrenches = [parts = parts_](const ForceInput& at, std::span<Wrench> out) {
+    field.wrenches = [parts = parts_](const StateView& at, std::span<Wrench> out) {
         Borrowed<DragScratch> scratch;
         const DragEvaluation air(parts->wind, parts->sites, parts->path, at, *scratch);
         std::size_t next = 0;
         for (const AirPoint& point : parts->points) out[next++] = air.wrench(point);
     };
-    field.jacobian = [parts = parts_](const ForceInput& at, const MatrixOut& by_q, const MatrixOut& by_qd) {
+    field.jacobian = [parts = parts_](const StateView& at, const MatrixOut& by_q, const MatrixOut& by_qd) {
         Borrowed<DragScratch> scratch;
         DragEvaluation(parts->wind, parts->sites, parts->path, at, *scratch)
             .add_derivatives(parts->points, by_q, by_qd);
@@ -210,7 +210,7 @@ WrenchField TowerAir::field() const {
     return field;
 }
 
-std::vector<Vec3> TowerAir::tower(const ForceInput& at) const {
+std::vector<Vec3> TowerAir::tower(const StateView& at) const {
     Borrowed<DragScratch> scratch;
     const DragEvaluation air(parts_->wind, parts_->sites, parts_->path, at, *scratch);
     std::vector<Vec3> out(parts_->sites.size() - (parts_->has_nacelle ? 1 : 0));
@@ -218,14 +218,14 @@ std::vector<Vec3> TowerAir::tower(const ForceInput& at) const {
     return out;
 }
 
-Vec3 TowerAir::nacelle(const ForceInput& at) const {
+Vec3 TowerAir::nacelle(const StateView& at) const {
     if (!parts_->has_nacelle) return Vec3::Zero();
     Borrowed<DragScratch> scratch;
     const DragEvaluation air(parts_->wind, parts_->sites, parts_->path, at, *scratch);
     return air.site(parts_->sites.size() - 1).force;
 }
 
-double TowerAir::work_rate(const ForceInput& at) const {
+double TowerAir::work_rate(const StateView& at) const {
     Borrowed<DragScratch> scratch;
     const DragEvaluation air(parts_->wind, parts_->sites, parts_->path, at, *scratch);
     double sum = 0;

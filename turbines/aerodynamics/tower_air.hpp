@@ -41,10 +41,10 @@ public:
     WrenchField field() const;
 
     /// At a state, base axes: forces per length at the rows of the table, N/m, from the foot upwards.
-    std::vector<Vec3> tower(const ForceInput& at) const;
-    Vec3 nacelle(const ForceInput& at) const;      ///< force on it, N
-    double work_rate(const ForceInput& at) const;  ///< of the drag on all motions, W
-    bool is_empty() const;                         ///< neither tower nor nacelle has drag
+    std::vector<Vec3> tower(const StateView& at) const;
+    Vec3 nacelle(const StateView& at) const;      ///< force on it, N
+    double work_rate(const StateView& at) const;  ///< of the drag on all motions, W
+    bool is_empty() const;                        ///< neither tower nor nacelle has drag
 
 private:
     struct Parts;

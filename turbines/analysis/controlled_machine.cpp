@@ -15,10 +15,10 @@ constexpr const char* yaw_input = "yaw demand";
 solvers::SampledController baseline_controller(const Controller& own, const Turbine& turbine) {
     const auto program = std::make_shared<VariableSpeedController>(*own.parameters);
     solvers::SampledController controller{.name = "baseline", .inputs = {}, .period = *own.period};
-    controller.update = [program, layout = turbine.layout()](const solvers::SampleInput& in, VectorOut u) {
+    controller.update = [program, layout = turbine.layout()](long /*sample*/, const DynamicView& in, VectorOut u) {
         const Model& model = in.kinematics.model();
-        const double speed = layout.gear_ratio * in.state.qd(model.index(*layout.generator));
-        const auto [torque, pitch] = program->step({speed, mean_pitch(layout, model, in.state.q)});
+        const double speed = layout.gear_ratio * in.qd(model.index(*layout.generator));
+        const auto [torque, pitch] = program->step({speed, mean_pitch(layout, model, in.q)});
         u(0) = pitch;
         u(1) = torque;
     };
@@ -53,24 +53,24 @@ public:
           report_(options.report) {}
 
     /// @param u  pitch of each blade, torque, and the yaw if it is prescribed
-    void update(const solvers::SampleInput& in, VectorOut u) {
+    void update(const DynamicView& in, VectorOut u) {
         const BladedController::Demand demand = library_.step(measured_now(in));
         const auto blades = std::ssize(layout_.pitch);
         for (Eigen::Index k = 0; k < blades; ++k) u(k) = entry(demand.pitch, k);
         u(blades) = demand.torque;
-        say(in.state.time, demand);
+        say(in.time, demand);
         if (yaw_ < 0) return;
-        if (!yawed_) u(blades + 1) = in.state.q(yaw_);
+        if (!yawed_) u(blades + 1) = in.q(yaw_);
         yawed_ = true;
         u(blades + 1) += demand.yaw_rate * period_;
     }
 
 private:
-    BladedController::Measured measured_now(const solvers::SampleInput& in) {
+    BladedController::Measured measured_now(const DynamicView& in) {
         sensors_.measure(in);
         BladedController::Measured now = measured(sensors_, layout_);
-        now.time = in.state.time;
-        now.generator_torque = in.state.s(torque_);
+        now.time = in.time;
+        now.generator_torque = in.s(torque_);
         now.power = efficiency_ * now.generator_torque * now.generator_speed;
         return now;
     }
@@ -104,7 +104,7 @@ solvers::SampledController library_controller(const Controller& own, const Turbi
                                               const ControlledMachineOptions& options) {
     const auto run = std::make_shared<LibraryRun>(own, turbine, options);
     solvers::SampledController controller{.name = "DISCON", .inputs = {}, .period = *own.period};
-    controller.update = [run](const solvers::SampleInput& in, const VectorOut& u) { run->update(in, u); };
+    controller.update = [run](long /*sample*/, const DynamicView& in, const VectorOut& u) { run->update(in, u); };
     controller.keeps_to_itself = true;
     return controller;
 }

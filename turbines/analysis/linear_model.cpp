@@ -63,7 +63,7 @@ solvers::LinearModel linearised_about(const Turbine& turbine, const LinearModelS
 }
 
 // A parked rotor, blade 1 up.
-solvers::OperatingPoint standing(const AeroelasticPoint& point) {
+DynamicState standing(const AeroelasticPoint& point) {
     solvers::SteadyOptions options;
     options.initial = point.start.col(0);
     if (point.state_start.cols() > 0) options.states = point.state_start.col(0);

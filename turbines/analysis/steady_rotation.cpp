@@ -28,7 +28,7 @@ solvers::PeriodicSteadyState steady_rotation(const Turbine& turbine, double roto
     return state;
 }
 
-solvers::OperatingPoint standstill(const Turbine& turbine, double azimuth) {
+DynamicState standstill(const Turbine& turbine, double azimuth) {
     solvers::SteadyOptions options;
     options.azimuth = azimuth;
     const solvers::SteadyState state = solvers::steady_state(turbine.system(), turbine.rotor().spin, options);

@@ -27,6 +27,6 @@ solvers::PeriodicSteadyState steady_rotation(const Turbine& turbine, double roto
 /// At rest in equilibrium, the rotor held.
 /// @param azimuth  of blade 1, rad
 /// @throws NumericalError if there is no equilibrium
-solvers::OperatingPoint standstill(const Turbine& turbine, double azimuth);
+DynamicState standstill(const Turbine& turbine, double azimuth);
 
 }  // namespace cardan::turbines

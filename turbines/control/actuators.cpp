@@ -273,7 +273,7 @@ ChannelGroup ActuatedForces::channels(const System& system, bool individual, dou
              .frame = torque ? axis : "pitch axis"});
     }
     if (!options_.torque_on_shaft) {
-        group.sample = [places](const ChannelInput& in, double* values) {
+        group.sample = [places](const DynamicView& in, double* values) {
             for (const int place : places) *values++ = in.u(place);
         };
         return group;
@@ -289,7 +289,7 @@ ChannelGroup ActuatedForces::channels(const System& system, bool individual, dou
         {.name = "electrical power", .units = "W", .long_name = "power of the generator", .alias = "GenPwr"});
     const int torque = system.forces.states().index(torque_state);
     group.sample = [places, torque, efficiency, shaft = *layout_.generator, ratio = layout_.gear_ratio](
-                       const ChannelInput& in, double* values) {
+                       const DynamicView& in, double* values) {
         for (const int place : places) *values++ = in.u(place);
         const double power = in.s(torque) * ratio * in.qd(in.kinematics.model().index(shaft));
         *values++ = in.s(torque);

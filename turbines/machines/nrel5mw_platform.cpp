@@ -115,9 +115,9 @@ std::vector<Channel> channels_of(int number) {
             root("Mz", "N m", "edgewise moment, about the downwind axis,", "")};
 }
 
-void sample_blade(const ChannelInput& at, const BladeFrames& blade, double* values) {
+void sample_blade(const DynamicView& at, const BladeFrames& blade, double* values) {
     const Pose<double> axes = pose(at.kinematics, blade.axes), tip = pose(at.kinematics, blade.tip);
-    const Wrench& root = at.loads.joint[static_cast<std::size_t>(blade.pitch)];
+    const Wrench& root = at.loads().joint[static_cast<std::size_t>(blade.pitch)];
     Eigen::Map<Vec3>(values, 3) = axes.R.transpose() * (tip.p - axes.p) - blade.undeformed_tip;
     Eigen::Map<Vec3>(values + 3, 3) = axes.R.transpose() * root.force;
     Eigen::Map<Vec3>(values + 6, 3) = axes.R.transpose() * root.moment;
@@ -139,7 +139,7 @@ ChannelGroup blade_channels(const Turbine& machine) {
         const Pose<double> axes_at = pose(at_rest, axes), tip_at = pose(at_rest, tip);
         blades.push_back({axes, tip, model.index(layout.pitch[k]), axes_at.R.transpose() * (tip_at.p - axes_at.p)});
     }
-    group.sample = [blades](const ChannelInput& at, double* values) {
+    group.sample = [blades](const DynamicView& at, double* values) {
         for (const BladeFrames& blade : blades) {
             sample_blade(at, blade, values);
             values += 9;

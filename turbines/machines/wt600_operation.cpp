@@ -137,7 +137,7 @@ Wt600Operation wt600_operation(const Wt600OperationOptions& options) {
     machine.turbine = bare.with_forces(forces);
     machine.channels =
         channels(machine.turbine,
-                 {{machine.rotor.hub, [rotor = machine.rotor](const ForceInput& in) { return rotor.wrench(in); }}});
+                 {{machine.rotor.hub, [rotor = machine.rotor](const StateView& in) { return rotor.wrench(in); }}});
     machine.channels.insert(machine.channels.end(), more.begin(), more.end());
     return machine;
 }

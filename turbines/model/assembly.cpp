@@ -20,13 +20,13 @@ namespace {
 // Lowest frequency of some coordinates with all others clamped at q = 0, Hz.
 double clamped_frequency(const System& system, const std::vector<int>& coordinates) {
     const auto n = system.model.size();
-    const Vector zero = Vector::Zero(n);
+    const DynamicState still = at_rest(n);
     Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, zero, workspace);
+    const Kinematics kin = kinematics(system.model, still.q, workspace);
     Matrix g(n, n);
     metric(kin, g);
     ForceDerivatives forces;
-    system.forces.derivatives(kin, 0, zero, zero, forces);
+    system.forces.derivatives({still, kin}, forces);
     const Matrix M = g(coordinates, coordinates), K = forces.elastic(coordinates, coordinates);
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(K, M, Eigen::EigenvaluesOnly);
     return std::sqrt(std::max(solver.eigenvalues()(0), 0.0)) / (2 * pi);

@@ -12,9 +12,9 @@ namespace cardan::turbines {
 namespace {
 
 // At the root or the tip of a beam, base axes, about the node there.
-Wrench beam_load(const ChannelSource& source, const ChannelInput& in, const CardanBeam& beam, bool tip, int subtree) {
+Wrench beam_load(const ChannelSource& source, const DynamicView& in, const CardanBeam& beam, bool tip, int subtree) {
     const Pose<double> node = pose(in.kinematics, tip ? beam.tip() : beam.nodes.front());
-    const Vec6 load = equilibrium_loads(beam, in.kinematics, in.forces, in.loads, tip ? beam.line.length : 0).values;
+    const Vec6 load = equilibrium_loads(beam, in.kinematics, in.forces, in.loads(), tip ? beam.line.length : 0).values;
     Wrench sum{node.R * load.head<3>(), node.R * load.tail<3>()};
     add_external(sum, source, in, subtree, node.p);
     return sum;
@@ -63,14 +63,14 @@ ChannelGroup rotor_channels(const Shared& source) {
                                   .point = "hub",
                                   .alias = "RotTorq"});
     }
-    group.sample = [source, generator](const ChannelInput& in, double* values) {
+    group.sample = [source, generator](const DynamicView& in, double* values) {
         const MachineLayout& layout = source->layout();
         const Kinematics& kin = in.kinematics;
         const Model& model = kin.model();
         const Pose<double> hub = pose(kin, layout.rotor_centre), shaft = pose(kin, layout.shaft);
         const int hub_body = model.frame(layout.rotor_centre).body, shaft_body = model.frame(layout.shaft).body;
         const auto spin = [&](int body) {
-            return body < 0 ? Vec3(Vec3::Zero()) : in.loads.motion[static_cast<std::size_t>(body)].angular_velocity;
+            return body < 0 ? Vec3(Vec3::Zero()) : in.loads().motion[static_cast<std::size_t>(body)].angular_velocity;
         };
         const Vec3 axis = hub.R.col(2), up = shaft.R.transpose() * hub.R.col(0);
         const double azimuth = std::atan2(-up.y(), up.z());
@@ -80,7 +80,7 @@ ChannelGroup rotor_channels(const Shared& source) {
         values[2] = layout.gear_ratio * in.qd(model.index(*layout.generator));
         const auto joint = static_cast<std::size_t>(hub_body);
         Wrench load;
-        add_moved(load, in.loads.joint[joint], kin.origin(hub_body), hub.p, -1);
+        add_moved(load, in.loads().joint[joint], kin.origin(hub_body), hub.p, -1);
         add_external(load, *source, in, hub_body, hub.p);
         values[3] = axis.dot(load.moment);
     };
@@ -94,7 +94,7 @@ ChannelGroup teeter_channels(const Shared& source) {
                        .long_name = "teeter of the hub, positive moves blade 1 downwind",
                        .frame = "teeter axis",
                        .alias = "RotTeetP"}};
-    group.sample = [source](const ChannelInput& in, double* values) {
+    group.sample = [source](const DynamicView& in, double* values) {
         *values = -in.q(in.kinematics.model().index(*source->layout().teeter));
     };
     return group;
@@ -118,7 +118,7 @@ ChannelGroup platform_channels(const Shared& source) {
     add("platform pitch angle", "rad", "pitch of the platform, positive moves the top of the tower downwind",
         "PtfmPitch");
     add("platform yaw angle", "rad", "yaw of the platform, positive seen from above counterclockwise", "PtfmYaw");
-    group.sample = [source](const ChannelInput& in, double* values) {
+    group.sample = [source](const DynamicView& in, double* values) {
         const Pose<double> now = pose(in.kinematics, source->layout().platform->frame);
         write(now.p, values);
         *values++ = std::atan2(now.R(2, 1), now.R(2, 2));
@@ -157,14 +157,14 @@ ChannelGroup tower_motion_channels(const Shared& source) {
                                                "above counterclockwise",
                                   .frame = "yaw axis",
                                   .alias = "NacYaw"});
-    group.sample = [source, yaw](const ChannelInput& in, double* values) {
+    group.sample = [source, yaw](const DynamicView& in, double* values) {
         const MachineLayout& layout = source->layout();
         const Kinematics& kin = in.kinematics;
         const Pose<double> foot = pose(kin, layout.tower_foot), top = pose(kin, layout.tower_top);
         const int body = kin.model().frame(layout.tower_top).body;
         Vec3 d = Vec3::Zero(), a = Vec3::Zero();  // a rigid tower on the ground has neither
         if (layout.tower) d = top.p - foot.p - foot.R * layout.tower->line.pose(layout.tower->line.length).p;
-        if (body >= 0) a = in.loads.motion[static_cast<std::size_t>(body)].at(top.p);
+        if (body >= 0) a = in.loads().motion[static_cast<std::size_t>(body)].at(top.p);
         const Vec3 in_foot = foot_axes(foot.R).transpose() * d, in_top = top.R.transpose() * d,
                    acceleration = top.R.transpose() * a;
         for (const Vec3* v : {&in_foot, &in_top, &acceleration})
@@ -184,7 +184,7 @@ ChannelGroup tower_load_channels(const Shared& source) {
                "pitching moment", "yaw moment"});
     const std::optional<RigidTower> rigid =
         source->layout().tower ? std::nullopt : std::optional<RigidTower>(source->turbine);
-    group.sample = [source, rigid](const ChannelInput& in, double* values) {
+    group.sample = [source, rigid](const DynamicView& in, double* values) {
         const std::optional<CardanBeam>& tower = source->layout().tower;
         const Model& model = in.kinematics.model();
         const Mat3 foot = foot_axes(pose(in.kinematics, source->layout().tower_foot).R),
@@ -234,7 +234,7 @@ ChannelGroup blade_motion_channels(const Shared& source, std::size_t k) {
                                   .frame = blade + " pitch axis",
                                   .point = blade + " root",
                                   .alias = alias("BldPitch")});
-    group.sample = [source, k, pitch](const ChannelInput& in, double* values) {
+    group.sample = [source, k, pitch](const DynamicView& in, double* values) {
         const MachineLayout& layout = source->layout();
         const CardanBeam& beam = layout.blades[k];
         const Kinematics& kin = in.kinematics;
@@ -266,7 +266,7 @@ ChannelGroup blade_load_channels(const Shared& source, std::size_t k) {
               {"out-of-plane shear force", "in-plane shear force", "axial force", "in-plane moment",
                "out-of-plane moment", "pitching moment"});
     for (std::size_t i : {0u, 1u, 3u, 4u}) group.channels.push_back(coned.channels[i]);  // z is the same axis
-    group.sample = [source, k](const ChannelInput& in, double* values) {
+    group.sample = [source, k](const DynamicView& in, double* values) {
         const MachineLayout& layout = source->layout();
         const CardanBeam& beam = layout.blades[k];
         const BodyId first = layout.pitch.empty() ? beam.elements.front().bodies[0] : layout.pitch[k];
@@ -315,7 +315,7 @@ ChannelGroup drive_channels(const Turbine& turbine) {
                                   .long_name = text("force of the drive on the coordinate '", table[a].name, "'"),
                                   .frame = "axis of " + table[a].name});
     }
-    group.sample = [driven](const ChannelInput& at, double* values) {
+    group.sample = [driven](const DynamicView& at, double* values) {
         for (int a : driven) {
             *values++ = at.q(a);
             *values++ = at.actuator(a);

@@ -23,7 +23,7 @@ namespace cardan::turbines {
 /// (elements/machine/load_over_time.hpp), need none.
 struct ExternalWrench {
     FrameId frame = {};
-    std::function<Wrench(const ForceInput&)> wrench = {};
+    std::function<Wrench(const StateView&)> wrench = {};
 };
 
 /// Channels of those of rotor, tower (also one that is rigid) and blades that the machine has. Loads follow from

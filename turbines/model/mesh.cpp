@@ -38,13 +38,13 @@ Frequencies frequencies_at_rest(const Assembler& part, bool spins) {
     const int spin = part.spin && !spins ? system.model.index(*part.spin) : -1;
     const std::vector<int> coordinates = system.model.coordinates().free_without(spin);
     if (coordinates.empty()) return {};
-    const Vector zero = Vector::Zero(n);
+    const DynamicState still = at_rest(n);
     Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, zero, workspace);
+    const Kinematics kin = kinematics(system.model, still.q, workspace);
     Matrix g(n, n);
     metric(kin, g);
     ForceDerivatives forces;
-    system.forces.derivatives(kin, 0, zero, zero, forces);
+    system.forces.derivatives({still, kin}, forces);
     Matrix M = g(coordinates, coordinates), K = forces.elastic(coordinates, coordinates);
     if (!system.loops.empty()) {
         const Matrix motions = closed_motions(system, kin, coordinates);

@@ -84,10 +84,10 @@ Mat6 stiffness_of_constant_forces(const ForceSet& forces, const Tree& tree, cons
     constant.set_gravity(forces.gravity());
     for (const FrameLoad& load : forces.loads()) constant.add_wrench(load);
     const System system(tree, constant);
-    const Vector zero = Vector::Zero(system.model.size());
+    const DynamicState still = at_rest(system.model.size());
     Workspace workspace(system.model);
     ForceDerivatives derivatives;
-    system.forces.derivatives(kinematics(system.model, zero, workspace), 0, zero, zero, derivatives);
+    system.forces.derivatives({still, kinematics(system.model, still.q, workspace)}, derivatives);
     std::vector<int> at;
     for (const BodyId body : base.coordinates) at.push_back(system.model.index(body));
     const Matrix K = derivatives.gravity(at, at) + derivatives.loads(at, at);
@@ -97,7 +97,7 @@ Mat6 stiffness_of_constant_forces(const ForceSet& forces, const Tree& tree, cons
 
 // Q = -K x; not elastic.
 UserForce linear_load(std::string name, const MovingBase& base, const Mat6& K) {
-    const auto at = [coordinates = base.coordinates](const ForceInput& in) {
+    const auto at = [coordinates = base.coordinates](const StateView& in) {
         std::array<int, 6> indices{};
         std::ranges::transform(coordinates, indices.begin(),
                                [&](BodyId body) { return in.kinematics.model().index(body); });
@@ -105,19 +105,19 @@ UserForce linear_load(std::string name, const MovingBase& base, const Mat6& K) {
     };
     UserForce load;
     load.name = std::move(name);
-    load.force = [at, K](const ForceInput& in, VectorOut Q) {
+    load.force = [at, K](const StateView& in, VectorOut Q) {
         const std::array<int, 6> x = at(in);
         for (std::size_t i = 0; i < 6; ++i)
             for (std::size_t j = 0; j < 6; ++j)
                 Q(x[i]) -= K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * in.q(x[j]);
     };
-    load.jacobian = [at, K](const ForceInput& in, MatrixOut dQ_dq, const MatrixOut& /*dQ_dqd*/) {
+    load.jacobian = [at, K](const StateView& in, MatrixOut dQ_dq, const MatrixOut& /*dQ_dqd*/) {
         const std::array<int, 6> x = at(in);
         for (std::size_t i = 0; i < 6; ++i)
             for (std::size_t j = 0; j < 6; ++j)
                 dQ_dq(x[i], x[j]) -= K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     };
-    load.energy = [at, K](const ForceInput& in) {
+    load.energy = [at, K](const StateView& in) {
         const std::array<int, 6> x = at(in);
         Vec6 now;
         for (std::size_t i = 0; i < 6; ++i) now(static_cast<Eigen::Index>(i)) = in.q(x[i]);

@@ -52,18 +52,17 @@ Vec3 rotation_vector(const Mat3& R) {
     return turn.angle() * turn.axis();
 }
 
-void sample(const Gauge& gauge, const ChannelSource& source, const ChannelInput& in, double* values) {
+void sample(const Gauge& gauge, const ChannelSource& source, const DynamicView& in, double* values) {
     const Kinematics& kin = in.kinematics;
     const Pose<double> here = gauge.station.pose(kin), root = pose(kin, gauge.root);
     const Mat3 to_local = (here.R * gauge.local_axes).transpose(), to_root = gauge.root_axes.transpose();
-    Wrench load = gauge.station.load(kin, in.forces, in.loads);
+    Wrench load = gauge.station.load(kin, in.forces, in.loads());
     for (const ExternalWrench& external : source.external)
         if (gauge.station.is_inboard_of(external.frame, kin))
-            add_moved(load, external.wrench({in.time, in.q, in.qd, kin, in.s, in.u}), pose(kin, external.frame).p,
-                      here.p);
+            add_moved(load, external.wrench(in), pose(kin, external.frame).p, here.p);
     const Vec3 moved = root.R.transpose() * (here.p - root.p) - gauge.undeformed.p;
     const Mat3 turned = root.R.transpose() * here.R * gauge.undeformed.R.transpose();
-    const Vec3 acceleration = gauge.station.acceleration(kin, in.loads);
+    const Vec3 acceleration = gauge.station.acceleration(kin, in.loads());
     write(to_local * load.force, values);
     write(to_local * load.moment, values);
     write(to_root * moved, values);
@@ -106,7 +105,7 @@ void add_stations(std::vector<ChannelGroup>& groups, const Shared& source, const
     check(names.beam, beam.line.length, places);
     for (std::size_t i = 0; i < places.size(); ++i) {
         groups.push_back(group_at(names, i + 1, places[i]));
-        groups.back().sample = [source, own = gauge(places[i])](const ChannelInput& in, double* values) {
+        groups.back().sample = [source, own = gauge(places[i])](const DynamicView& in, double* values) {
             sample(own, *source, in, values);
         };
     }

@@ -28,11 +28,11 @@ Shared shared_source(const Turbine& turbine, std::vector<ExternalWrench> externa
     return std::make_shared<const ChannelSource>(ChannelSource{turbine, std::move(external)});
 }
 
-void add_external(Wrench& sum, const ChannelSource& source, const ChannelInput& in, int subtree, const Vec3& at) {
+void add_external(Wrench& sum, const ChannelSource& source, const DynamicView& in, int subtree, const Vec3& at) {
     const Kinematics& kin = in.kinematics;
     for (const ExternalWrench& load : source.external)
         if (kin.model().precedes(subtree, kin.model().frame(load.frame).body))
-            add_moved(sum, load.wrench({in.time, in.q, in.qd, kin, in.s, in.u}), pose(kin, load.frame).p, at);
+            add_moved(sum, load.wrench(in), pose(kin, load.frame).p, at);
 }
 
 RigidTower::RigidTower(const Turbine& turbine) : carrier_(Tree::base()) {
@@ -50,13 +50,13 @@ RigidTower::RigidTower(const Turbine& turbine) : carrier_(Tree::base()) {
 }
 
 // Weight less rate of change of momentum, m (g - a) and -(J w)'.
-void RigidTower::add_part(Wrench& sum, const RigidInertia& part, const ChannelInput& in, const Vec3& at) const {
+void RigidTower::add_part(Wrench& sum, const RigidInertia& part, const DynamicView& in, const Vec3& at) const {
     if (part.is_massless()) return;
     const Pose<double> own = pose(in.kinematics, carrier_);
     const Vec3 centre = own.p + own.R * part.com;
     Wrench load{part.mass * in.forces.gravity(), Vec3::Zero()};
     if (body_ >= 0) {
-        const BodyMotion& motion = in.loads.motion[static_cast<std::size_t>(body_)];
+        const BodyMotion& motion = in.loads().motion[static_cast<std::size_t>(body_)];
         const Mat3 J = own.R * part.J * own.R.transpose();
         const Vec3 w = motion.angular_velocity;
         load.force -= part.mass * motion.at(centre);
@@ -65,33 +65,32 @@ void RigidTower::add_part(Wrench& sum, const RigidInertia& part, const ChannelIn
     add_moved(sum, load, centre, at);
 }
 
-Wrench RigidTower::load_above(FrameId cut, const ChannelSource& source, const ChannelInput& in) const {
+Wrench RigidTower::load_above(FrameId cut, const ChannelSource& source, const DynamicView& in) const {
     const Kinematics& kin = in.kinematics;
     const Tree& tree = source.turbine.tree();
     const Vec3 at = pose(kin, cut).p;
     Wrench sum;
     for (const int joint : joints_) {
-        add_moved(sum, in.loads.joint[static_cast<std::size_t>(joint)], kin.origin(joint), at, -1);
+        add_moved(sum, in.loads().joint[static_cast<std::size_t>(joint)], kin.origin(joint), at, -1);
         add_external(sum, source, in, joint, at);
     }
     add_part(sum, head_, in, at);
     for (const FrameLoad& load : in.forces.loads())
         if (stands_on(tree, load.frame, cut))
             add_moved(sum, in.forces.at_frame(load, kin, in.time), pose(kin, load.frame).p, at);
-    for_each_point(in.forces, in.loads, [&](const FieldPoint& point, const Wrench& load) {
+    for_each_point(in.forces, in.loads(), [&](const FieldPoint& point, const Wrench& load) {
         if (stands_on(tree, point.frame, cut)) add_moved(sum, load, place_of(kin, point), at);
     });
     for (const ExternalWrench& load : source.external)
-        if (stands_on(tree, load.frame, cut))
-            add_moved(sum, load.wrench({in.time, in.q, in.qd, kin, in.s, in.u}), pose(kin, load.frame).p, at);
+        if (stands_on(tree, load.frame, cut)) add_moved(sum, load.wrench(in), pose(kin, load.frame).p, at);
     return sum;
 }
 
-Wrench RigidTower::top_load(const ChannelSource& source, const ChannelInput& in) const {
+Wrench RigidTower::top_load(const ChannelSource& source, const DynamicView& in) const {
     return load_above(source.layout().tower_top, source, in);
 }
 
-Wrench RigidTower::foot_load(const ChannelSource& source, const ChannelInput& in) const {
+Wrench RigidTower::foot_load(const ChannelSource& source, const DynamicView& in) const {
     Wrench sum = load_above(source.layout().tower_foot, source, in);
     add_part(sum, tower_, in, pose(in.kinematics, source.layout().tower_foot).p);
     return sum;

@@ -44,9 +44,9 @@ private:
     template <class F>
     void each(const F& f) const {
         Workspace workspace(model_);
-        for (const solvers::OperatingPoint& state : point_.revolution) {
+        for (const DynamicState& state : point_.revolution) {
             const Kinematics kin = kinematics(model_, state.q, workspace);
-            f(FieldInput(ForceInput{state.time, state.q, state.qd, kin, no_states, no_states}));
+            f(FieldInput(StateView(state, kin)));
         }
     }
 

@@ -171,9 +171,9 @@ void WindOperation::evaluate(WindPoint& point, const MachineAir& air, const Turb
     const double share = 1 / static_cast<double>(point.revolution.size());
     const AeroBlade& blade = air.blade();
     point.sections.assign(blade.sections(), {});
-    for (const solvers::OperatingPoint& state : point.revolution) {
+    for (const DynamicState& state : point.revolution) {
         const Kinematics kin = kinematics(model, state.q, workspace);
-        const ForceInput at{state.time, state.q, state.qd, kin, no_states, no_states};
+        const StateView at(state, kin);
         const MachineAir::Rotor rotor = air.rotor(at);
         point.power += share * rotor.power();
         point.thrust += share * rotor.force.x();

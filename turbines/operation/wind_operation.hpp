@@ -6,7 +6,7 @@
 #pragma once
 
 #include "mbs/base/outcome.hpp"
-#include "solvers/linear/operating_point.hpp"
+#include "mbs/system/state.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/model/pitch_schedule.hpp"
 
@@ -68,7 +68,7 @@ struct WindPoint : Outcome {
     std::vector<SectionMean> sections = {};
     /// States of the machine at equal steps of a revolution, blade 1 up first; one where nothing depends on the
     /// azimuth.
-    std::vector<solvers::OperatingPoint> revolution = {};
+    std::vector<DynamicState> revolution = {};
     /// Of a periodic state: its harmonics (PeriodicSteadyState), and what those left out would have to balance, over
     /// stiffness, rad or m. Empty: the state is constant.
     Matrix coefficients = {};

@@ -15,7 +15,7 @@ Vector gather(const List& list, const Value& value) {
 
 }  // namespace
 
-ElementValues::ElementValues(const StateElement& element, const ChannelInput& in)
+ElementValues::ElementValues(const StateElement& element, const DynamicView& in)
     : time_(in.time),
       q_(gather(element.coordinates, [&](BodyId at) { return in.q(in.kinematics.model().index(at)); })),
       qd_(gather(element.coordinates, [&](BodyId at) { return in.qd(in.kinematics.model().index(at)); })),

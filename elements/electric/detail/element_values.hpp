@@ -13,7 +13,7 @@ namespace cardan::detail {
 /// The values of an element in a channel's function, found by their names.
 class ElementValues {
 public:
-    ElementValues(const StateElement& element, const ChannelInput& in);
+    ElementValues(const StateElement& element, const DynamicView& in);
 
     StateInput input() const { return {time_, q_, qd_, s_, others_, u_}; }
 

@@ -54,7 +54,7 @@ ChannelGroup torque_channels(const std::string& name, const std::string& alias, 
     group.channels = {
         torque_channel(name, alias),
         {.name = name + " power", .units = "W", .long_name = "power over the air gap: torque times synchronous speed"}};
-    group.sample = [element, speed = machine.omega / machine.pole_pairs](const ChannelInput& in, double* values) {
+    group.sample = [element, speed = machine.omega / machine.pole_pairs](const DynamicView& in, double* values) {
         const ElementValues own(element, in);
         values[0] = own.input().s(0);
         values[1] = values[0] * speed;

@@ -23,7 +23,7 @@ ChannelGroup machine_channels(const std::string& name, const std::string& alias,
     group.channels = machine_channel_names(name, alias, fed_rotor);
     StateElement seen{.name = element.name, .states = element.states, .coordinates = {element.coordinates.front()}};
     const auto functions = std::make_shared<const LawFunctions<Law>>(std::move(law), demands, seen);
-    group.sample = [functions, seen = std::move(seen), omega, fed_rotor](const ChannelInput& in, double* values) {
+    group.sample = [functions, seen = std::move(seen), omega, fed_rotor](const DynamicView& in, double* values) {
         const ElementValues own(seen, in);
         const StateInput input = own.input();
         const auto x = functions->template values<double>(input);

@@ -48,7 +48,7 @@ Spun spin(const Beam& beam, const CardanBeamOptions& options, const std::string&
     add_cardan_beam(tree, forces, root, beam.line, "beam", {"beam"}, options);
     const System system(tree, forces);
     const auto n = system.model.size();
-    solvers::OperatingPoint at{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0};  // straight: its steady state
+    DynamicState at = at_rest(n);  // straight: its steady state
     at.qd(system.model.index("spin")) = beam.speed;
     Spun spun;
     spun.system = solvers::restrict_to(solvers::linearise(system, at), coordinates(system.model, kind));

@@ -123,7 +123,7 @@ LinearLoop linear_loop(const Plant& plant, const DamperOptions& damper) {
     for (const ControlBlock* block : {&loop.filter, &loop.integral}) forces.add_states(block->element);
     const turbines::Turbine turbine = plant.turbine.with_forces(with_load(forces, plant.rotor));
 
-    solvers::OperatingPoint at = plant.start;
+    DynamicState at = plant.start;
     at.s = turbine.system().forces.states().initial();
     at.u = {};
     LinearLoop out{turbine, program::multi_blade_system(turbine, at), {}};

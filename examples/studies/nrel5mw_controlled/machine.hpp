@@ -30,8 +30,8 @@ struct DamperOptions {
 struct Plant {
     turbines::Turbine turbine;  ///< pitch on springs; no load
     SteadyPoint point = {};
-    RotorLoad rotor;                ///< in that wind
-    solvers::OperatingPoint start;  ///< turning steadily under it
+    RotorLoad rotor;     ///< in that wind
+    DynamicState start;  ///< turning steadily under it
 };
 Plant plant(const MachineOptions& options, double wind);
 

@@ -56,7 +56,7 @@ int sag(const MachineOptions& machine, const SagOptions& options, const std::str
     solvers::Integrator integrator(turbine.system(), {}, 0, start.start.q, start.start.qd, integration);
     const RotorLoad rotor = rotor_in_wind(start, [wind = options.wind](double) { return wind; });
     std::vector<ChannelGroup> channels =
-        turbines::channels(turbine, {{rotor.hub, [rotor](const ForceInput& in) { return rotor.wrench(in); }}});
+        turbines::channels(turbine, {{rotor.hub, [rotor](const StateView& in) { return rotor.wrench(in); }}});
     channels.push_back(own.controlled.channels);
     channels.push_back(doubly_fed_generator_channels(own.generator));
     solvers::Recorder recorder(integrator, std::move(channels));

@@ -109,7 +109,7 @@ std::vector<Linear> linear_modes(const turbines::Turbine& turbine, double rotor_
 }
 
 // Undamped, with everything else held: how long to look where the linear model has no oscillation.
-double period_alone(const turbines::Turbine& turbine, const solvers::OperatingPoint& at, int coordinate) {
+double period_alone(const turbines::Turbine& turbine, const DynamicState& at, int coordinate) {
     const solvers::Linearisation lin = solvers::linearise(turbine.system(), at);
     const double stiffness = lin.stiffness()(coordinate, coordinate), mass = lin.mass(coordinate, coordinate);
     if (!(stiffness > 0))
@@ -120,7 +120,7 @@ double period_alone(const turbines::Turbine& turbine, const solvers::OperatingPo
 
 struct Run {
     const turbines::Turbine& turbine;
-    const solvers::OperatingPoint& start;
+    const DynamicState& start;
     const MachineOptions& machine;
     const DecayOptions& options;
     double rotor_speed;
@@ -156,7 +156,7 @@ void draw(const solvers::History& history, const Release& release, const std::st
 DecayOutcome let_go(const Run& run, const Release& release, const Linear& linear, const std::string& prefix) {
     const System& system = run.turbine.system();
     const int at = system.model.index(run.turbine.layout().platform->coordinates.at(release.coordinate));
-    solvers::OperatingPoint start = run.start;
+    DynamicState start = run.start;
     start.q(at) += release.offset;
     const double period = linear.found ? 1 / linear.damped_hz : period_alone(run.turbine, run.start, at),
                  duration = (run.options.cycles + 0.25) * period, step = std::min(run.options.step, period / 40);
@@ -254,7 +254,7 @@ int decay(const MachineOptions& machine, const DecayOptions& options, const std:
         program::check_outputs(text(prefix, "_", coordinate_names.at(release.coordinate)), {".h5", ".svg", ".png"});
     const turbines::Turbine turbine = on_spar(machine, CoordinateRole::free);
     const double speed = options.rpm * units::rpm;
-    const solvers::OperatingPoint start = equilibrium(turbine, speed);
+    const DynamicState start = equilibrium(turbine, speed);
     const std::vector<Linear> linear = linear_modes(turbine, speed, list);
     const Run run{turbine, start, machine, options, speed};
     std::vector<DecayOutcome> outcomes;

@@ -69,7 +69,7 @@ turbines::Turbine on_land(const MachineOptions& options) {
                                 : turbines::nrel5mw_description(std::filesystem::path(options.data), data));
 }
 
-solvers::OperatingPoint equilibrium(const turbines::Turbine& turbine, double rotor_speed) {
+DynamicState equilibrium(const turbines::Turbine& turbine, double rotor_speed) {
     if (rotor_speed == 0) {
         const solvers::SteadyState state = solvers::steady_state(turbine.system(), turbine.rotor().spin);
         require_result(state, "equilibrium");

@@ -47,6 +47,6 @@ turbines::Turbine on_land(const MachineOptions& options);
 /// The constant state at standstill or, in rotation, the periodic one at azimuth 0.
 /// @param rotor_speed  rad/s
 /// @throws NumericalError
-solvers::OperatingPoint equilibrium(const turbines::Turbine& turbine, double rotor_speed);
+DynamicState equilibrium(const turbines::Turbine& turbine, double rotor_speed);
 
 }  // namespace cardan::floating

@@ -131,7 +131,7 @@ std::vector<solvers::Drive> drives(const turbines::Turbine& turbine, const Case&
 
 struct Study {
     const turbines::Turbine& turbine;
-    const solvers::OperatingPoint& start;
+    const DynamicState& start;
     const MotionOptions& options;
     double settle, duration;  ///< s
 };
@@ -273,7 +273,7 @@ int motion(const MachineOptions& machine, const MotionOptions& options, const st
     program::check_outputs(prefix, {".csv"});
     for (const Case& one : all) program::check_outputs(text(prefix, "_", one.name), {".h5", ".png"});
     const turbines::Turbine turbine = on_spar(machine, CoordinateRole::driven);
-    const solvers::OperatingPoint start = equilibrium(turbine, options.rpm * units::rpm);
+    const DynamicState start = equilibrium(turbine, options.rpm * units::rpm);
     const Study study{turbine, start, options, options.settle, options.settle + options.periods * longest};
     const std::string path = prefix + ".csv";
     std::ofstream csv(path);

@@ -22,7 +22,7 @@ ChannelGroup free_coordinates(const CoordinateTable& table) {
         group.channels.push_back({.name = table[a].name,
                                   .units = table[a].unit,
                                   .long_name = text("position of the coordinate '", table[a].name, "'")});
-    group.sample = [free = table.free()](const ChannelInput& at, double* values) {
+    group.sample = [free = table.free()](const DynamicView& at, double* values) {
         for (const int a : free) *values++ = at.q(a);
     };
     return group;

@@ -20,7 +20,7 @@ constexpr const char* at_standstill = "; at standstill: azimuth 0";
 bool blades_differ(const System& system, const RotorMap& rotor) {
     const Vector zero = Vector::Zero(system.model.size());
     const Vector closed = system.loops.empty() ? zero : closed_position(system, rotor.spin, 0, zero);
-    return !blades_alike(system.model, rotor, linearise(system, {closed, zero, zero, 0.0}));
+    return !blades_alike(system.model, rotor, linearise(system, at_rest(closed)));
 }
 
 // Empty: constant in multi-blade coordinates, and there is a constant steady state.

@@ -17,7 +17,7 @@ bool structure_differs(const System& system, const RotorMap& rotor, const PointS
         Vector q = zero;
         q(rotor.spin) = psi;
         if (!system.loops.empty()) q = closed_position(system, rotor.spin, 0, q);
-        const Linearisation lin = rows.linearised_at({q, zero, zero, 0.0});
+        const Linearisation lin = rows.linearised_at(at_rest(q));
         const Matrix own = T->matrix(psi);
         return std::array{Matrix(own.transpose() * lin.mass(rows.unknowns(), rows.unknowns()) * own),
                           Matrix(own.transpose() * lin.elastic(rows.unknowns(), rows.unknowns()) * own)};
@@ -39,7 +39,7 @@ bool blades_move_alike(const RotorMap& rotor, const PeriodicSteadyState& state, 
     const double part = 2 * pi / static_cast<double>(blades);
     const std::vector<std::vector<int>> of_blades = states_of_blades(rotor, states);
     for (const double psi : {0.3, 1.4, 2.9, 5.2}) {
-        const OperatingPoint now = state.at(psi), before = state.at(psi + part);
+        const DynamicState now = state.at(psi), before = state.at(psi + part);
         double size = 0, change = 0, size_s = 0, change_s = 0;
         for (std::size_t k = 0; k < blades; ++k) {
             const std::size_t next = (k + 1) % blades;

@@ -42,7 +42,7 @@ public:
     /// Directions as far as they follow from kinematics alone, at the poses of `kin`.
     void begin(const Kinematics& kin, Directions& out) const;
     /// Values of the inputs at an operating point.
-    Vector input_values(const OperatingPoint& at) const;
+    Vector input_values(const DynamicState& at) const;
     /// The wrench per unit input for a column; none for other columns.
     std::optional<FrameLoad> wrench_of(Eigen::Index column) const;
 
@@ -69,11 +69,11 @@ public:
 
     const std::vector<Signal>& signals() const { return signals_; }
     /// Values at a state.
-    Vector at(const OperatingPoint& state, const Vector& actuator, const Forces& forces);
+    Vector at(const DynamicState& state, const Forces& forces);
     /// @param error, size  in and out: largest estimated error of a difference, and largest difference, per output;
     /// empty at first
-    Matrix along(const OperatingPoint& state, const Vector& actuator, const Directions& directions,
-                 const Layout& layout, Vector& error, Vector& size);
+    Matrix along(const DynamicState& state, const Directions& directions, const Layout& layout, Vector& error,
+                 Vector& size);
 
 private:
     const System& system_;

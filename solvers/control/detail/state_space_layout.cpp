@@ -249,7 +249,7 @@ std::optional<FrameLoad> Layout::wrench_of(Eigen::Index column) const {
     return load;
 }
 
-Vector Layout::input_values(const OperatingPoint& at) const {
+Vector Layout::input_values(const DynamicState& at) const {
     Vector values = Vector::Zero(std::ssize(columns_));
     for (Eigen::Index c = 0; c < values.size(); ++c) {
         const Column& own = entry(columns_, c);

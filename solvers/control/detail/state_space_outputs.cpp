@@ -57,8 +57,8 @@ OutputDifferences::OutputDifferences(const System& system, const std::vector<Cha
     }
 }
 
-Vector OutputDifferences::at(const OperatingPoint& state, const Vector& actuator, const Forces& forces) {
-    const std::vector<double>& all = values_.at(state, actuator, forces);
+Vector OutputDifferences::at(const DynamicState& state, const Forces& forces) {
+    const std::vector<double>& all = values_.at(state, forces);
     Vector values(std::ssize(at_));
     for (Eigen::Index i = 0; i < values.size(); ++i) {
         values(i) = all[entry(at_, i)];
@@ -68,8 +68,8 @@ Vector OutputDifferences::at(const OperatingPoint& state, const Vector& actuator
     return values;
 }
 
-Matrix OutputDifferences::along(const OperatingPoint& state, const Vector& actuator, const Directions& directions,
-                                const Layout& layout, Vector& error, Vector& size) {
+Matrix OutputDifferences::along(const DynamicState& state, const Directions& directions, const Layout& layout,
+                                Vector& error, Vector& size) {
     const auto rows = std::ssize(at_);
     Matrix slopes = Matrix::Zero(rows, layout.columns());
     if (size.size() == 0) error = size = Vector::Zero(rows);
@@ -90,15 +90,15 @@ Matrix OutputDifferences::along(const OperatingPoint& state, const Vector& actua
                          : !qdd.isZero(0) ? 100 / largest(qdd)
                                           : 1;
         const auto value = [&](double step) {
-            OperatingPoint moved = state;
+            DynamicState moved = state;
             moved.q += step * q;
             moved.qd += step * qd;
             moved.qdd += step * qdd;
             moved.s += step * s;
             moved.u += step * u;
             if (moved.lambda.size() > 0) moved.lambda += step * directions.lambda.col(j);
-            const Vector forced = actuator + step * directions.actuator.col(j);
-            return load ? at(moved, forced, with_wrench(system_, *load, step)) : at(moved, forced, system_.forces);
+            moved.actuator += step * directions.actuator.col(j);
+            return load ? at(moved, with_wrench(system_, *load, step)) : at(moved, system_.forces);
         };
         const auto difference = [&](double step) {
             Vector d = value(step) - value(-step);

@@ -75,10 +75,7 @@ public:
     void evaluate(double* r) {
         const Kinematics kin = kinematics(system_.model, at.q, workspace_);
         inverse_dynamics<double>(kin, at.qd, at.qdd, tau_);
-        if (system_.forces.has_states())
-            system_.forces.evaluate({at.time, at.q, at.qd, kin, at.s, at.u}, Q_, f_);
-        else
-            system_.forces.generalised_forces(kin, at.time, at.q, at.qd, Q_);
+        system_.forces.generalised_forces({at, kin}, Q_, f_);
         if (phi_.size() > 0) {
             system_.loops.residual<double>(kin, at.time, at.q, phi_);
             system_.loops.gradient<double>(kin, at.time, at.q, gradients_);
@@ -93,10 +90,7 @@ public:
     void jacobian(double* J) {
         const Kinematics kin = kinematics(system_.model, at.q, workspace_);
         inverse_dynamics_derivatives(kin, at.qd, at.qdd, by_q_, by_qd_);
-        if (system_.forces.has_states())
-            system_.forces.derivatives({at.time, at.q, at.qd, kin, at.s, at.u}, forces_, by_states_);
-        else
-            system_.forces.derivatives(kin, at.time, at.q, at.qd, forces_);
+        system_.forces.derivatives({at, kin}, forces_);
         by_q_ += forces_.elastic + forces_.gravity + forces_.loads;
         if (phi_.size() > 0) {
             system_.loops.gradient<double>(kin, at.time, at.q, gradients_);
@@ -104,15 +98,15 @@ public:
         }
         for (int b : unknowns) {
             for (int a : unknowns) *J++ = by_q_(a, b);
-            for (int a : states) *J++ = -by_states_.f_q(a, b);
+            for (int a : states) *J++ = -forces_.states.f_q(a, b);
             for (int k : loops) *J++ = gradients_(k, b);
             if (trimmed) *J++ = by_q_(spin_, b);
         }
         for (int b : states) {
-            for (int a : unknowns) *J++ = -by_states_.Q_s(a, b);
-            for (int a : states) *J++ = -by_states_.f_s(a, b);
+            for (int a : unknowns) *J++ = -forces_.states.Q_s(a, b);
+            for (int a : states) *J++ = -forces_.states.f_s(a, b);
             J = std::fill_n(J, loops.size(), 0.0);
-            if (trimmed) *J++ = -by_states_.Q_s(spin_, b);
+            if (trimmed) *J++ = -forces_.states.Q_s(spin_, b);
         }
         for (int k : loops) {
             for (int a : unknowns) *J++ = -gradients_(k, a);
@@ -170,17 +164,17 @@ public:
     bool trimmed;
     std::vector<int> loops;  ///< independent equations
     std::vector<int> unknowns, states;
-    OperatingPoint at;
+    DynamicState at;
     std::exception_ptr thrown;
 
 private:
     // The last column.
     void by_trim(double* J) const {
         const auto of_force = [&](int a) {
-            return input_ < 0 ? by_qd_(a, spin_) + forces_.damping(a, spin_) : -by_states_.Q_u(a, input_);
+            return input_ < 0 ? by_qd_(a, spin_) + forces_.damping(a, spin_) : -forces_.states.Q_u(a, input_);
         };
         for (int a : unknowns) *J++ = of_force(a);
-        for (int a : states) *J++ = input_ < 0 ? -by_states_.f_qd(a, spin_) : -by_states_.f_u(a, input_);
+        for (int a : states) *J++ = input_ < 0 ? -forces_.states.f_qd(a, spin_) : -forces_.states.f_u(a, input_);
         J = std::fill_n(J, loops.size(), 0.0);
         *J = of_force(spin_);
     }
@@ -191,7 +185,6 @@ private:
     Vector tau_, Q_, f_, phi_;
     Matrix by_q_, by_qd_, gradients_;
     ForceDerivatives forces_;
-    StateDerivatives by_states_;
 };
 
 }  // namespace cardan::solvers

@@ -56,11 +56,13 @@ RotorEquations::RotorEquations(const System& system, int spin, const PeriodicOpt
     given_.row(spin).setZero();
     unknowns_ = system.model.coordinates().free_without(spin);
     given_states_ = options.state_start.size() > 0 ? options.state_start : Matrix(states().initial());
-    at_ = {Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0, states().initial(), system.forces.inputs().initial()};
+    at_ = at_rest(n);
+    at_.s = states().initial();
+    at_.u = system.forces.inputs().initial();
     tau_.setZero(n);
     Q_.setZero(n);
     f_.setZero(states().size());
-    s_rate_.setZero(states().size());
+    at_.s_rate.setZero(states().size());
     at_.lambda.setZero(system.loops.size());
     G_.resize(system.loops.size(), n);
     phi_.resize(system.loops.size());
@@ -108,7 +110,7 @@ void RotorEquations::set(VectorIn q, VectorIn qd, VectorIn qdd) {
     for (int i = 0; i < states().size(); ++i) {
         const double scale = states()[i].scale;
         at_.s(i) = scale * q(states_from() + i);
-        s_rate_(i) = scale * qd(states_from() + i);
+        at_.s_rate(i) = scale * qd(states_from() + i);
     }
 }
 
@@ -122,10 +124,7 @@ void RotorEquations::set_on(const Matrix& own, double psi) {
 void RotorEquations::residual(VectorOut r) {
     const Kinematics kin = kinematics(system_.model, at_.q, workspace_);
     inverse_dynamics<double>(kin, at_.qd, at_.qdd, tau_);
-    if (system_.forces.has_states())
-        system_.forces.evaluate({at_.time, at_.q, at_.qd, kin, at_.s, at_.u}, Q_, f_);
-    else
-        system_.forces.generalised_forces(kin, at_.time, at_.q, at_.qd, Q_);
+    system_.forces.generalised_forces({at_, kin}, Q_, f_);
     if (const Loops& loops = system_.loops; !loops.empty()) {
         loops.gradient<double>(kin, at_.time, at_.q, G_);
         loops.residual<double>(kin, at_.time, at_.q, phi_);
@@ -136,7 +135,7 @@ void RotorEquations::residual(VectorOut r) {
         const int at = entry(unknowns_, i);
         r(i) = tau_(at) - Q_(at);
     }
-    for (int i = 0; i < states().size(); ++i) r(states_from() + i) = (s_rate_(i) - f_(i)) / states()[i].scale;
+    for (int i = 0; i < states().size(); ++i) r(states_from() + i) = (at_.s_rate(i) - f_(i)) / states()[i].scale;
 }
 
 void RotorEquations::linearise(SecondOrderSystem& out) {

@@ -68,11 +68,11 @@ private:
     Matrix given_;         // coefficients of all coordinates as given
     Matrix given_states_;  // likewise
     std::vector<int> unknowns_;
-    OperatingPoint at_;
+    DynamicState at_;
     Workspace workspace_;
     Lineariser lineariser_;
     Linearisation lin_;
-    Vector tau_, Q_, f_, s_rate_;
+    Vector tau_, Q_, f_;
     double stiffness_ = 1;  // N/m, k
     double psi_ = 0;
     Vector turns_;  // see PeriodicSteadyState; empty without loops

@@ -16,7 +16,7 @@ struct Loaded {
     ForceSet forces;
     CardanBeam beam;
     std::optional<System> system;
-    solvers::OperatingPoint at;
+    DynamicState at;
 
     void settle(int spin = -1, double rotor_speed = 0, const Vector& initial = {}) {
         system.emplace(tree, forces);
@@ -30,7 +30,7 @@ struct Loaded {
     Vec6 equilibrium(double s) const {
         Workspace workspace(system->model);
         const Kinematics kin = kinematics(system->model, at.q, workspace);
-        const JointLoads loads = joint_loads(kin, system->forces, at.qd, at.qdd);
+        const JointLoads loads = joint_loads({at, kin}, system->forces, at.qdd);
         return equilibrium_loads(beam, kin, system->forces, loads, s).values;
     }
     SectionLoads constitutive(double s) const { return constitutive_loads(beam, system->model, at.q, at.qd, s); }

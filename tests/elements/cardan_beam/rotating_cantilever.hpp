@@ -15,7 +15,7 @@ struct RotatingBeam : SingleBeam {
     /// Linearised about the straight beam, which must be an equilibrium.
     solvers::SecondOrderSystem at(double rotor_speed) const {
         const Vector zero = Vector::Zero(system.model.size());
-        solvers::OperatingPoint point{zero, zero, zero};
+        DynamicState point = at_rest(zero);
         point.qd(spin) = rotor_speed;
         return solvers::restrict_to(solvers::linearise(system, point), system.model.coordinates().free_without(spin));
     }

@@ -85,7 +85,7 @@ Clamped clamp(const BeamLine& line, const CardanBeamOptions& options, const Rigi
     const System system(tree, forces);
     const auto n = system.model.size();
     const Vector zero = Vector::Zero(n);
-    Clamped result{solvers::linearise(system, {zero, zero, zero, 0}), {}, {}, Matrix(6, n)};
+    Clamped result{solvers::linearise(system, at_rest(zero)), {}, {}, Matrix(6, n)};
     const auto second_order = solvers::restrict_to(result.lin, system.model.coordinates().free());
     result.modes = solvers::modes(second_order);
     for (const solvers::Mode& mode : result.modes) {
@@ -378,7 +378,7 @@ TEST_CASE("beam damping: the damping of a beam on a hinge resists its deformatio
     add_cardan_beam(tree, forces, hinge.frame, general_line(10), "beam", {"beam"}, damped(2, damping));
     const System system(tree, forces);
     const Vector zero = Vector::Zero(system.model.size());
-    const Matrix D = solvers::linearise(system, {zero, zero, zero, 0}).damping;
+    const Matrix D = solvers::linearise(system, at_rest(zero)).damping;
     const int at = system.model.index(hinge.body);
     CHECK(D.row(at).isZero(0));
     CHECK(D.col(at).isZero(0));

@@ -86,7 +86,7 @@ struct Chain {
         Workspace workspace(system.model);
         Matrix J(6, n);
         frame_jacobian(kinematics(system.model, zero, workspace), tip, J);
-        const Matrix K = solvers::linearise(system, {zero, zero, zero, 0}).elastic;
+        const Matrix K = solvers::linearise(system, at_rest(zero)).elastic;
         return J * K.partialPivLu().solve(Matrix(J.transpose()));
     }
 };

@@ -112,8 +112,8 @@ TEST_CASE("distributed load: mass per length times g acts as gravity at any defl
         for (const double size : {0.0, 0.05, 0.5}) {
             const Vector q = Vector::NullaryExpr(n, [&] { return size * uniform(random, -1, 1); });
             Vector Q(n), P(n);
-            by_gravity.forces.generalised_forces(kinematics(by_gravity.model, q, one), 0, q, zero, Q);
-            by_load.forces.generalised_forces(kinematics(by_load.model, q, two), 0, q, zero, P);
+            by_gravity.forces.generalised_forces({{.q = q, .qd = zero}, kinematics(by_gravity.model, q, one)}, Q);
+            by_load.forces.generalised_forces({{.q = q, .qd = zero}, kinematics(by_load.model, q, two)}, P);
             CAPTURE(partition_name(partition), elements, size);
             CHECK((Q - P).norm() < 1e-11 * Q.norm());
         }

@@ -81,7 +81,7 @@ Mat6 element_compliance(const BeamLine& line, const CardanBeamOptions& options) 
     Matrix J(6, n);
     frame_jacobian(kin, beam.tip(), J);  // [rotation; displacement]
     ForceDerivatives d;
-    system.forces.derivatives(kin, 0, zero, zero, d);
+    system.forces.derivatives({{.q = zero, .qd = zero}, kin}, d);
     const Matrix C = J * d.elastic.ldlt().solve(J.transpose());
     Mat6 ordered;  // displacement first, as forces come first in the section
     ordered << C.bottomRightCorner<3, 3>(), C.bottomLeftCorner<3, 3>(), C.topRightCorner<3, 3>(),

@@ -91,7 +91,7 @@ TEST_CASE("closed loops: a slider-crank with an elastic rod", "[discrete]") {
         // Across the guide the rod's fast oscillations show.
         std::vector<LoopLoad> pins_of_loops;
         system.loops.add_loads(kin, run.state().lambda, pins_of_loops);
-        const ForceInput at{run.time(), run.state().q, run.state().qd, kin, run.state().s, run.state().u};
+        const StateView at(run.state(), kin);
         const JointLoads loads = joint_loads(at, system.forces, run.state().qdd, pins_of_loops);
         CHECK(loads.joint[static_cast<std::size_t>(rod)].force.y() == Approx(row.crank_force).margin(0.1));
     }

@@ -49,16 +49,16 @@ struct Beam {
           workspace(system.model) {}
     Vector zero() const { return Vector::Zero(system.model.size()); }
     double energy(const Vector& q) {
-        return system.forces.potential_energy(kinematics(system.model, q, workspace), 0, q, zero());
+        return system.forces.potential_energy({{.q = q, .qd = zero()}, kinematics(system.model, q, workspace)});
     }
     Vector force(const Vector& q) {
         Vector Q = zero();
-        system.forces.generalised_forces(kinematics(system.model, q, workspace), 0, q, zero(), Q);
+        system.forces.generalised_forces({{.q = q, .qd = zero()}, kinematics(system.model, q, workspace)}, Q);
         return Q;
     }
     Matrix stiffness(const Vector& q) {
         ForceDerivatives d;
-        system.forces.derivatives(kinematics(system.model, q, workspace), 0, q, zero(), d);
+        system.forces.derivatives({{.q = q, .qd = zero()}, kinematics(system.model, q, workspace)}, d);
         CHECK(d.loads.isZero(0));  // a spring, not a load
         return d.elastic;
     }
@@ -162,9 +162,10 @@ TEST_CASE("hinge law: its forces and stiffness are evaluated without allocation"
         Workspace workspace(system.model);
         const Kinematics kin = kinematics(system.model, q, workspace);
         ForceDerivatives derivatives;
-        system.forces.derivatives(kin, 0, q, qd, derivatives);
-        CHECK(allocations([&] { system.forces.generalised_forces(kin, 0, q, qd, Q); }) == 0);
-        CHECK(allocations([&] { system.forces.derivatives(kin, 0, q, qd, derivatives); }) == 0);
+        system.forces.derivatives({{.q = q, .qd = qd}, kin}, derivatives);
+        const State state{.q = q, .qd = qd};
+        CHECK(allocations([&] { system.forces.generalised_forces({state, kin}, Q); }) == 0);
+        CHECK(allocations([&] { system.forces.derivatives({state, kin}, derivatives); }) == 0);
     }
 }
 

@@ -199,7 +199,7 @@ TEST_CASE("structural damping: the ratio comes out at the given frequency and gr
     const System system(tree, forces);
     const Vector zero = Vector::Zero(system.model.size());
     const auto modes = solvers::modes(
-        solvers::restrict_to(solvers::linearise(system, {zero, zero, zero, 0}), system.model.coordinates().free()));
+        solvers::restrict_to(solvers::linearise(system, at_rest(zero)), system.model.coordinates().free()));
     CHECK(modes[0].damping_ratio() == Approx(0.01).epsilon(1e-4));
     CHECK(modes[2].damping_ratio() == Approx(0.01 * modes[2].natural_hz() / modes[0].natural_hz()).epsilon(1e-6));
 }

@@ -116,7 +116,7 @@ Rotor rotor(int per_segment, bool shear, const Eigen::Matrix2d& bearing) {
 // Whirl speeds in fixed axes, rad/s, by magnitude; backward ones are negative.
 std::vector<double> whirls(const Rotor& rotor, double speed, std::size_t count) {
     const Eigen::Index n = rotor.system.model.size();
-    OperatingPoint at{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n)};
+    DynamicState at = at_rest(n);
     at.qd(rotor.system.model.index("spin")) = speed;
     std::vector<double> all;
     for (const Mode& mode : modes(restrict_to(linearise(rotor.system, at), rotor.unknowns), 3e4)) {
@@ -132,7 +132,7 @@ std::vector<double> whirls(const Rotor& rotor, double speed, std::size_t count) 
 // In fixed axes, where the equations are constant whatever the bearings: rad/s, rising.
 std::vector<double> fixed_whirls(const Rotor& rotor, double speed) {
     const Eigen::Index n = rotor.system.model.size();
-    OperatingPoint at{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n)};
+    DynamicState at = at_rest(n);
     at.qd(rotor.map.spin) = speed;
     const ColemanTransform to_fixed(rotor.map, rotor.unknowns);
     std::vector<double> all;

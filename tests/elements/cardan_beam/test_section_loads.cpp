@@ -112,14 +112,14 @@ TEST_CASE("section loads: in any motion the loads at a hinge, along its axis, ar
     b.system.emplace(b.tree, b.forces);
     const Model& model = b.system->model;
     const auto random_vector = [&] { return Vector(Vector::NullaryExpr(model.size(), [&] { return u(random); })); };
-    b.at = {random_vector(), random_vector(), random_vector(), 0};
+    b.at = {{.q = random_vector(), .qd = random_vector()}, random_vector()};
 
     Workspace workspace(model);
     const Kinematics kin = kinematics(model, b.at.q, workspace);
-    const JointLoads loads = joint_loads(kin, b.system->forces, b.at.qd, b.at.qdd);
+    const JointLoads loads = joint_loads({b.at, kin}, b.system->forces, b.at.qdd);
     Vector tau(model.size()), Q(model.size());
     inverse_dynamics<double>(kin, b.at.qd, b.at.qdd, tau);
-    b.system->forces.generalised_forces(kin, 0, b.at.q, b.at.qd, Q);
+    b.system->forces.generalised_forces({b.at, kin}, Q);
     for (const CardanBeam::Element& element : b.beam.elements) {
         Vector q(6);
         for (Eigen::Index i = 0; i < 6; ++i) q(i) = b.at.q(model.index(entry(element.bodies, i)));
@@ -165,7 +165,7 @@ TEST_CASE("section loads: with sectional inertia cut at the torsion centre both 
     const auto random_vector = [&] {
         return Vector(Vector::NullaryExpr(b.system->model.size(), [&] { return u(random); }));
     };
-    b.at = {random_vector(), random_vector(), random_vector(), 0};
+    b.at = {{.q = random_vector(), .qd = random_vector()}, random_vector()};
     const double tiny = 1e-7;
     CHECK((b.equilibrium(1 - tiny) - b.equilibrium(1 + tiny)).norm() < 1e-4);
     const CardanBeam::Element& element = b.beam.elements[0];

@@ -66,7 +66,7 @@ Mat6 chain_tip_compliance(const BeamLine& line, const CardanBeamOptions& options
     Workspace workspace(system.model);
     Matrix J(6, n);
     frame_jacobian(kinematics(system.model, zero, workspace), beam.tip(), J);
-    const Matrix K = solvers::linearise(system, {zero, zero, zero, 0}).elastic;
+    const Matrix K = solvers::linearise(system, at_rest(zero)).elastic;
     const Vector d = K.diagonal().cwiseSqrt().cwiseInverse();
     const Matrix scaled = J * d.asDiagonal();
     return scaled * Matrix(d.asDiagonal() * K * d.asDiagonal()).llt().solve(Matrix(scaled.transpose()));
@@ -156,8 +156,7 @@ TEST_CASE("stiffness: a beam like another is the one that its line and options w
         CHECK(like.mass == anew.mass);
         const System one(again, again_forces), other(fresh, fresh_forces);
         const Vector q = Vector::LinSpaced(one.model.size(), -0.1, 0.2), zero = Vector::Zero(one.model.size());
-        const solvers::Linearisation a = solvers::linearise(one, {q, zero, zero, 0}),
-                                     b = solvers::linearise(other, {q, zero, zero, 0});
+        const solvers::Linearisation a = solvers::linearise(one, at_rest(q)), b = solvers::linearise(other, at_rest(q));
         CHECK(a.mass == b.mass);
         CHECK(a.elastic == b.elastic);
         CHECK(a.damping == b.damping);

@@ -90,7 +90,7 @@ private:
         std::array<int, 3> at{};
         for (std::size_t i = 0; i < 3; ++i) at[i] = model.index(integrals[i]);
         UserForce user{.name = "load"};
-        user.force = [load, root, at](const ForceInput& in, VectorOut Q) {
+        user.force = [load, root, at](const StateView& in, VectorOut Q) {
             const double factor = load.factor(in.time);
             Matrix J(6, Q.size());
             frame_jacobian<double>(in.kinematics, root, J);
@@ -102,7 +102,7 @@ private:
         };
         // In the plane only the moment about the origin depends on the position.
         if (plane)
-            user.jacobian = [load, at](const ForceInput& in, MatrixOut by_q, MatrixOut) {
+            user.jacobian = [load, at](const StateView& in, MatrixOut by_q, MatrixOut) {
                 by_q(at[2], 0) += load.factor(in.time) * load.force.y();
                 by_q(at[2], 1) -= load.factor(in.time) * load.force.x();
             };

@@ -51,16 +51,17 @@ void check_derivatives(const StateElement& element, std::initializer_list<StateE
         qd << 0.8 * size, 0.2 * size;
         u << 1.1 * size;
         const Vector s = Vector::LinSpaced(m, -0.6 * size, 0.9 * size);
-        const Evaluated a = evaluated(exact, q, qd, s, u), b = evaluated(differenced, q, qd, s, u);
+        const Evaluated a = evaluated(exact, {.q = q, .qd = qd, .s = s, .u = u}),
+                        b = evaluated(differenced, {.q = q, .qd = qd, .s = s, .u = u});
         CAPTURE(element.name, size);
-        CHECK((a.forces.loads - b.forces.loads).norm() < 1e-5);
-        CHECK((a.forces.damping - b.forces.damping).norm() < 1e-5);
-        CHECK((a.states.Q_s - b.states.Q_s).norm() < 1e-5);
-        CHECK((a.states.Q_u - b.states.Q_u).norm() < 1e-5);
-        CHECK((a.states.f_q - b.states.f_q).norm() < 1e-6);
-        CHECK((a.states.f_qd - b.states.f_qd).norm() < 1e-6);
-        CHECK((a.states.f_s - b.states.f_s).norm() < 1e-6);
-        CHECK((a.states.f_u - b.states.f_u).norm() < 1e-6);
+        CHECK((a.by.loads - b.by.loads).norm() < 1e-5);
+        CHECK((a.by.damping - b.by.damping).norm() < 1e-5);
+        CHECK((a.by.states.Q_s - b.by.states.Q_s).norm() < 1e-5);
+        CHECK((a.by.states.Q_u - b.by.states.Q_u).norm() < 1e-5);
+        CHECK((a.by.states.f_q - b.by.states.f_q).norm() < 1e-6);
+        CHECK((a.by.states.f_qd - b.by.states.f_qd).norm() < 1e-6);
+        CHECK((a.by.states.f_s - b.by.states.f_s).norm() < 1e-6);
+        CHECK((a.by.states.f_u - b.by.states.f_u).norm() < 1e-6);
         CHECK(a.f.norm() > 0);
     }
 }
@@ -171,7 +172,7 @@ TEST_CASE("control blocks: a PI controller brings a loaded shaft to its speed, a
             bench.shaft)
             .element);
     bench.forces.add_user(
-        {.name = "load", .force = [](const ForceInput& in, VectorOut Q) { Q(0) -= in.time < 5 ? 20 : 4; }});
+        {.name = "load", .force = [](const StateView& in, VectorOut Q) { Q(0) -= in.time < 5 ? 20 : 4; }});
     const System system = bench.system();
     solvers::IntegrationOptions options;
     options.breaks = {5};
@@ -184,7 +185,7 @@ TEST_CASE("control blocks: a PI controller brings a loaded shaft to its speed, a
     CHECK(run.state().qd(0) == Approx(wanted).epsilon(1e-4));
     CHECK(run.state().s(0) == Approx(4).epsilon(1e-3));
     // Unsaturated, the characteristic polynomial is J L^2 (tau L + 1) + p L + i.
-    const solvers::OperatingPoint at{run.state().q, run.state().qd, Vector::Zero(2), 25, run.state().s};
+    const DynamicState at{{.time = 25, .q = run.state().q, .qd = run.state().qd, .s = run.state().s}, Vector::Zero(2)};
     const std::vector<solvers::Mode> modes = solvers::modes(solvers::restrict_to(solvers::linearise(system, at), {0}));
     for (const solvers::Mode& mode : modes) {
         const Complex L = mode.eigenvalue;
@@ -206,7 +207,7 @@ TEST_CASE("control blocks: evaluation allocates nothing", "[property]") {
     bench.forces.add_states(position_actuator(pitch_drive(pi.output), bench.vane, 60, 3).element);
     const System system = bench.system();
     const Vector q = Vector::Constant(2, 0.2), s = Vector::Constant(3, 0.3), u = Vector::Constant(1, 0.1);
-    CHECK(allocations_of_evaluation(system, q, q, s, u) == 0);
+    CHECK(allocations_of_evaluation(system, {.q = q, .qd = q, .s = s, .u = u}) == 0);
 }
 
 TEST_CASE("control blocks: what cannot be is refused with the block's name", "[property]") {

@@ -26,7 +26,7 @@ double value(const ControlSignal& signal, double source) {
 
 std::vector<solvers::Mode> modes_at(const System& system, double speed, const Vector& states) {
     const Vector zero = Vector::Zero(1);
-    const solvers::OperatingPoint at{.q = zero, .qd = Vector::Constant(1, speed), .qdd = zero, .s = states};
+    const DynamicState at{{.q = zero, .qd = Vector::Constant(1, speed), .s = states}, zero};
     return solvers::modes(solvers::restrict_to(solvers::linearise(system, at), {0}));
 }
 
@@ -87,8 +87,8 @@ Motion sampled(double torque, double period) {
     const auto program = std::make_shared<VariableSpeedController>(own);
     solvers::SampledController controller{
         .name = "baseline", .inputs = {"pitch demand", "torque demand"}, .period = period};
-    controller.update = [program](const solvers::SampleInput& in, VectorOut u) {
-        const auto [torque_demand, pitch] = program->step({97 * in.state.qd(0), in.state.s(0)});
+    controller.update = [program](long /*sample*/, const DynamicView& in, VectorOut u) {
+        const auto [torque_demand, pitch] = program->step({97 * in.qd(0), in.s(0)});
         u(0) = pitch;
         u(1) = torque_demand;
     };

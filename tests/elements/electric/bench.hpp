@@ -44,8 +44,7 @@ inline OneBody locked() {
 
 /// Values of a group's channels at a state.
 inline std::vector<double> sampled(const ChannelGroup& group, const System& system, const solvers::Integrator& run) {
-    const solvers::DynamicState& at = run.state();
-    return solvers::ChannelValues(system, {&group, 1}).at({at.q, at.qd, at.qdd, at.time, at.s, at.u});
+    return solvers::ChannelValues(system, {&group, 1}).at(run.state());
 }
 
 /// The element's own derivatives against central differences of its functions.
@@ -60,20 +59,20 @@ inline void check_derivatives(const Tree& tree, const ForceSet& forces, const Ve
     ForceSet own;
     for (const InputInfo& input : forces.inputs()) own.add_input(input);
     for (const StateElement& element : forces.state_elements()) own.add_states(element);
-    const Evaluated exact = evaluated({tree, own}, q, qd, s, u, time),
-                    other = evaluated({tree, differenced}, q, qd, s, u, time);
+    const Evaluated exact = evaluated({tree, own}, {.time = time, .q = q, .qd = qd, .s = s, .u = u}),
+                    other = evaluated({tree, differenced}, {.time = time, .q = q, .qd = qd, .s = s, .u = u});
     const auto check = [](const Matrix& a, const Matrix& b) {
         for (Eigen::Index k = 0; k < a.size(); ++k)
             CHECK(a.reshaped()(k) == Approx(b.reshaped()(k)).epsilon(2e-6).margin(1e-7 * b.norm() + 1e-8));
     };
-    check(exact.forces.loads, other.forces.loads);
-    check(exact.forces.damping, other.forces.damping);
-    check(exact.states.Q_s, other.states.Q_s);
-    check(exact.states.f_q, other.states.f_q);
-    check(exact.states.f_qd, other.states.f_qd);
-    check(exact.states.f_s, other.states.f_s);
-    check(exact.states.Q_u, other.states.Q_u);
-    check(exact.states.f_u, other.states.f_u);
+    check(exact.by.loads, other.by.loads);
+    check(exact.by.damping, other.by.damping);
+    check(exact.by.states.Q_s, other.by.states.Q_s);
+    check(exact.by.states.f_q, other.by.states.f_q);
+    check(exact.by.states.f_qd, other.by.states.f_qd);
+    check(exact.by.states.f_s, other.by.states.f_s);
+    check(exact.by.states.Q_u, other.by.states.Q_u);
+    check(exact.by.states.f_u, other.by.states.f_u);
 }
 
 }  // namespace cardan::testing::electric_bench

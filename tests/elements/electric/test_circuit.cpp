@@ -181,7 +181,7 @@ TEST_CASE("circuit: roots and steady currents of random networks are those of mo
         const System system = bench.system();
         const Eigen::Index m = system.forces.states().size();
         const Vector one = Vector::Zero(1);
-        const Matrix f_s = evaluated(system, one, one, Vector::Zero(m), {}).states.f_s;
+        const Matrix f_s = evaluated(system, {.q = one, .qd = one, .s = Vector::Zero(m)}).by.states.f_s;
 
         // Finite eigenvalues of E x' + A x = 0 by a shift: those of (A + z E)^-1 E that do not vanish.
         Matrix E, A;
@@ -279,7 +279,7 @@ TEST_CASE("circuit: nothing is allocated in an evaluation", "[property]") {
     const System system = bench.system();
     const Eigen::Index m = system.forces.states().size();
     const Vector q = Vector::Constant(1, 0.3), qd = Vector::Constant(1, 2), s = Vector::Constant(m, 0.4), u;
-    CHECK(allocations_of_evaluation(system, q, qd, s, u) == 0);
+    CHECK(allocations_of_evaluation(system, {.q = q, .qd = qd, .s = s, .u = u}) == 0);
     check_derivatives(bench.tree, bench.forces, q, qd, s);
 }
 

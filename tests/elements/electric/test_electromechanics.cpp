@@ -105,7 +105,7 @@ TEST_CASE("electromechanics: a motor with a commutator on an arm", "[analytic]")
     motor.add_winding({.name = "armature", .from = "1", .to = "0", .inductance = L, .resistance = R});
     motor.add_magnet("armature", bench.body, [](double q) { return Curve{1.9 * q, 1.9, 0}; });
     UserForce weight{.name = "weight"};
-    weight.force = [](const ForceInput& at, VectorOut Q) { Q(0) -= 3 * std::sin(at.q(0)); };
+    weight.force = [](const StateView& at, VectorOut Q) { Q(0) -= 3 * std::sin(at.q(0)); };
     bench.forces.add_user(weight);
     bench.forces.add_states(motor.element());
     const SteadyState steady = steady_state(bench.system(), -1);

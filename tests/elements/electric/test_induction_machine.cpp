@@ -51,10 +51,10 @@ InductionGenerator generator(const Machine& machine, BodyId shaft) {
 // Braking torque of a load that is put on.
 void add_load(OneBody& bench, const Machine& machine, IntegrationOptions& options) {
     UserForce load{.name = "load"};
-    load.force = [machine](const ForceInput& at, VectorOut Q) {
+    load.force = [machine](const StateView& at, VectorOut Q) {
         if (at.time >= machine.load_from) Q(0) -= machine.load;
     };
-    load.jacobian = [](const ForceInput&, const MatrixOut&, const MatrixOut&) {};
+    load.jacobian = [](const StateView&, const MatrixOut&, const MatrixOut&) {};
     bench.forces.add_user(load);
     options.breaks = {machine.load_from};
 }
@@ -90,12 +90,13 @@ Complex response(const InductionGenerator& machine, const Tree& tree, double spe
     ForceSet forces;
     forces.add_states(induction_generator(own));
     const System system(tree, forces);
-    const Evaluated at = evaluated(system, Vector::Zero(1), Vector::Constant(1, speed / own.gear_ratio),
-                                   system.forces.states().initial(), {});
+    const Evaluated at = evaluated(system, {.q = Vector::Zero(1),
+                                            .qd = Vector::Constant(1, speed / own.gear_ratio),
+                                            .s = system.forces.states().initial()});
     CHECK(at.f.cwiseQuotient(Vector::Constant(at.f.size(), machine.grid.peak())).norm() < 1e-9);
-    const ComplexMatrix shifted = Complex(0, w) * Matrix::Identity(at.f.size(), at.f.size()) - at.states.f_s;
-    return -at.forces.damping(0, 0) +
-           (at.states.Q_s * shifted.partialPivLu().solve(ComplexMatrix(at.states.f_qd)))(0, 0);
+    const ComplexMatrix shifted = Complex(0, w) * Matrix::Identity(at.f.size(), at.f.size()) - at.by.states.f_s;
+    return -at.by.damping(0, 0) +
+           (at.by.states.Q_s * shifted.partialPivLu().solve(ComplexMatrix(at.by.states.f_qd)))(0, 0);
 }
 
 }  // namespace
@@ -210,7 +211,7 @@ TEST_CASE("induction machine: after a change of frequency all orders run with th
         own.grid = own.grid.with_frequency_change(-2, 0.5, 100);
         bench.forces.add_states(induction_generator(own));
         UserForce drive{.name = "drive"};
-        drive.force = [](const ForceInput&, VectorOut Q) { Q(0) += 10; };
+        drive.force = [](const StateView&, VectorOut Q) { Q(0) += 10; };
         bench.forces.add_user(drive);
         const System system = bench.system();
         Integrator run(system, {}, 0, Vector::Zero(1), Vector::Constant(1, 188), accurate(1e-8));
@@ -309,7 +310,8 @@ TEST_CASE("induction machine, doubly fed: torque and reactive power follow their
     bench.forces.add_states(element);
     const System system = bench.system();
     const Vector start = system.forces.states().initial(), rate = Vector::Constant(1, 110);
-    const Evaluated at = evaluated(system, Vector::Zero(1), rate, start, system.forces.inputs().initial());
+    const Evaluated at =
+        evaluated(system, {.q = Vector::Zero(1), .qd = rate, .s = start, .u = system.forces.inputs().initial()});
     CHECK(at.f.head(4).norm() < 1e-7 * own.grid.peak());
     CHECK(at.Q(0) == Approx(-2 * 5000).epsilon(1e-4));
     check_derivatives(bench.tree, bench.forces, Vector::Zero(1), rate, 1.1 * start, Vector{{6000, 2e5}});
@@ -319,7 +321,7 @@ TEST_CASE("induction machine, doubly fed: torque and reactive power follow their
     const ChannelGroup channels = doubly_fed_generator_channels(own);
     IntegrationOptions options = accurate(1e-8);
     SampledController steps{.name = "steps", .inputs = {"torque demand", "reactive demand"}, .period = 0.1};
-    steps.update = [](const SampleInput&, VectorOut u) { u << 8000, 3e5; };
+    steps.update = [](long /*sample*/, const DynamicView&, VectorOut u) { u << 8000, 3e5; };
     options.controllers = {steps};
     Integrator run(system, {}, 0, Vector::Zero(1), rate, options);
     REQUIRE(run.advance(0.05).reached());
@@ -344,7 +346,7 @@ TEST_CASE("induction machine: nothing is allocated in an evaluation, the doubly 
         forces.add_states(element);
         const System system(bench.tree, forces);
         const Vector q = Vector::Zero(1), qd = Vector::Constant(1, 180), s = system.forces.states().initial(), u;
-        CHECK(allocations_of_evaluation(system, q, qd, s, u) == 0);
+        CHECK(allocations_of_evaluation(system, {.q = q, .qd = qd, .s = s, .u = u}) == 0);
     };
     const OneBody bench(JointKind::revolute, 1);
     InductionGenerator own = generator(small, bench.body);

@@ -37,8 +37,8 @@ struct Bench : OneBody {
         forces.add_input({.name = "torque demand", .unit = "N m", .scale = 1e6, .initial = 8e5});
         forces.add_states(synchronous_generator(own));
         UserForce rotor{.name = "rotor"};
-        rotor.force = [](const ForceInput&, VectorOut Q) { Q(0) += 8e5; };
-        rotor.jacobian = [](const ForceInput&, const MatrixOut&, const MatrixOut&) {};
+        rotor.force = [](const StateView&, VectorOut Q) { Q(0) += 8e5; };
+        rotor.jacobian = [](const StateView&, const MatrixOut&, const MatrixOut&) {};
         forces.add_user(rotor);
     }
 };
@@ -50,7 +50,8 @@ TEST_CASE("synchronous generator: it starts in steady operation, and its power i
     const Bench bench;
     const System system = bench.system();
     const Vector rate = Vector::Constant(1, 2.2), start = system.forces.states().initial();
-    const Evaluated at = evaluated(system, Vector::Zero(1), rate, start, system.forces.inputs().initial());
+    const Evaluated at =
+        evaluated(system, {.q = Vector::Zero(1), .qd = rate, .s = start, .u = system.forces.inputs().initial()});
     CHECK(std::abs(at.Q(0)) < 1e-6);
     for (Eigen::Index k = 0; k < start.size(); ++k)
         CHECK(std::abs(at.f(k)) < 1e-8 * system.forces.states()[static_cast<int>(k)].scale);
@@ -74,7 +75,7 @@ TEST_CASE("synchronous generator: currents follow a demand with the bandwidth of
     const System system = bench.system();
     IntegrationOptions options = accurate(1e-9);
     SampledController step{.name = "step", .inputs = {"torque demand"}, .period = 10};
-    step.update = [](const SampleInput&, VectorOut u) { u(0) = 9e5; };
+    step.update = [](long /*sample*/, const DynamicView&, VectorOut u) { u(0) = 9e5; };
     options.controllers = {step};
     const ChannelGroup channels = synchronous_generator_channels(bench.own);
     Integrator run(system, {}, 0, Vector::Zero(1), Vector::Constant(1, 2.2), options);

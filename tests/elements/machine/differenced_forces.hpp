@@ -18,11 +18,11 @@ inline DifferencedForces differenced(const System& system, const Vector& q, cons
     Workspace workspace(system.model);
     const auto Q = [&](const Vector& at, const Vector& rate) {
         Vector out(n);
-        system.forces.generalised_forces(kinematics(system.model, at, workspace), 0, at, rate, out);
+        system.forces.generalised_forces({{.q = at, .qd = rate}, kinematics(system.model, at, workspace)}, out);
         return out;
     };
     const auto energy = [&](const Vector& at) {
-        return system.forces.potential_energy(kinematics(system.model, at, workspace), 0, at, qd);
+        return system.forces.potential_energy({{.q = at, .qd = qd}, kinematics(system.model, at, workspace)});
     };
     DifferencedForces out{Matrix(n, n), Matrix(n, n), Vector(n), Q(q, qd), Q(q, Vector::Zero(n)), {}};
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -31,7 +31,7 @@ inline DifferencedForces differenced(const System& system, const Vector& q, cons
         out.by_qd.col(i) = (Q(q, qd + e) - Q(q, qd - e)) / (2 * step);
         out.slope(i) = (energy(q + e) - energy(q - e)) / (2 * step);
     }
-    system.forces.derivatives(kinematics(system.model, q, workspace), 0, q, qd, out.own);
+    system.forces.derivatives({{.q = q, .qd = qd}, kinematics(system.model, q, workspace)}, out.own);
     return out;
 }
 

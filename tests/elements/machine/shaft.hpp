@@ -38,11 +38,11 @@ inline OneForce evaluate(const System& system, double time, double q, double qd)
     const Vector x = one(q), v = one(qd);
     const Kinematics kin = kinematics(system.model, x, workspace);
     Vector Q(1);
-    system.forces.generalised_forces(kin, time, x, v, Q);
+    system.forces.generalised_forces({{.time = time, .q = x, .qd = v}, kin}, Q);
     ForceDerivatives d;
-    system.forces.derivatives(kin, time, x, v, d);
+    system.forces.derivatives({{.time = time, .q = x, .qd = v}, kin}, d);
     return {Q(0), -(d.elastic + d.loads + d.gravity)(0), -d.damping(0),
-            system.forces.potential_energy(kin, time, x, v)};
+            system.forces.potential_energy({{.time = time, .q = x, .qd = v}, kin})};
 }
 
 /// Derivative of f at x by the complex step.
@@ -57,7 +57,7 @@ inline solvers::Event at_time(double time, std::function<void(double)> action) {
     solvers::Event event;
     event.name = "at a time";
     event.direction = 1;
-    event.function = [time](const ForceInput& in) { return in.time - time; };
+    event.function = [time](const StateView& in) { return in.time - time; };
     event.action = [action = std::move(action)](solvers::Integrator& integrator) {
         action(integrator.time());
         return solvers::AfterEvent::restart;

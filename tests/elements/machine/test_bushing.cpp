@@ -61,7 +61,7 @@ TEST_CASE("bushing: a body on it vibrates by its stiffness", "[analytic]") {
     add_bushing(forces, {"bushing", Tree::base(), body, K, Mat6::Zero()});
     const System system(tree, forces);
     const Vector zero = Vector::Zero(6);
-    const std::vector<Mode> found = modes(restrict_to(linearise(system, {zero, zero, zero}), {0, 1, 2, 3, 4, 5}));
+    const std::vector<Mode> found = modes(restrict_to(linearise(system, at_rest(zero)), {0, 1, 2, 3, 4, 5}));
     Mat6 M = Mat6::Zero();
     M.diagonal() << 0.2, 0.3, 0.4, 3, 3, 3;
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> expected{Matrix(K), Matrix(M)};
@@ -88,7 +88,7 @@ TEST_CASE("bearing: a mass on eight coefficients, and coefficients over speed", 
     add_bearing(forces, {"bearing", Tree::base(), y.axes, at});
     const System system(tree, forces);
     const Vector zero = Vector::Zero(2);
-    const SecondOrderSystem found = restrict_to(linearise(system, {zero, zero, zero}), {0, 1});
+    const SecondOrderSystem found = restrict_to(linearise(system, at_rest(zero)), {0, 1});
     CHECK((found.K - at.stiffness).norm() < 1e-9 * at.stiffness.norm());
     CHECK((found.C - at.damping).norm() < 1e-9 * at.damping.norm());
     check_refused([&] { (void)table.at(99); }, {"speed", "99", "100"});

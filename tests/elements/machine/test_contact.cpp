@@ -31,14 +31,14 @@ Bounce bounce(double mass, const HuntCrossley& law, double v0, bool plane) {
     options.tolerances = {1e-11, 1e-14, 1e-14, 1e-12, 1e-12};
     double deepest = 0;
     options.events = {{.name = "deepest",
-                       .function = [](const ForceInput& at) { return at.qd(0); },
+                       .function = [](const StateView& at) { return at.qd(0); },
                        .direction = 1,
                        .action =
                            [&](Integrator& run) {
                                deepest = -run.state().q(0);
                                return AfterEvent::proceed;
                            }},
-                      {.name = "apart", .function = [](const ForceInput& at) { return at.q(0); }, .direction = 1}};
+                      {.name = "apart", .function = [](const StateView& at) { return at.q(0); }, .direction = 1}};
     Integrator run(system, {}, 0, Vector{{0.0}}, Vector{{-v0}}, options);
     const Advance end = run.advance(10);
     REQUIRE(end.event == "apart");
@@ -63,7 +63,7 @@ Cycle creeping_cycle(double d, const StribeckFriction& law) {
     options.tolerances = {1e-9, 1e-11, 1e-11, 1e-10, 1e-10};
     std::vector<double> tops, bottoms, highest, lowest;
     options.events = {{.name = "top",
-                       .function = [](const ForceInput& at) { return at.qd(0); },
+                       .function = [](const StateView& at) { return at.qd(0); },
                        .direction = -1,
                        .action =
                            [&](Integrator& run) {
@@ -72,7 +72,7 @@ Cycle creeping_cycle(double d, const StribeckFriction& law) {
                                return AfterEvent::proceed;
                            }},
                       {.name = "bottom",
-                       .function = [](const ForceInput& at) { return at.qd(0); },
+                       .function = [](const StateView& at) { return at.qd(0); },
                        .direction = 1,
                        .action =
                            [&](Integrator& run) {
@@ -119,7 +119,7 @@ Slips slips(double d, const StribeckFriction& law) {
         };
     const auto turning = [](std::vector<double>& places, int direction) {
         return Event{.name = "turns",
-                     .function = [](const ForceInput& at) { return at.qd(0); },
+                     .function = [](const StateView& at) { return at.qd(0); },
                      .direction = direction,
                      .action =
                          [&places](Integrator& run) {
@@ -252,7 +252,7 @@ TEST_CASE("friction: three blocks in a row break loose one after another", "[ana
                              .body);
         frictions.push_back(add_dry_friction(forces, loops, text("floor ", i + 1), blocks.back(), {1, 1, 0.1}));
     }
-    forces.add_user({.name = "springs and pull", .force = [](const ForceInput& at, VectorOut Q) {
+    forces.add_user({.name = "springs and pull", .force = [](const StateView& at, VectorOut Q) {
                          const double a = 100 * (at.q(0) - at.q(1)), b = 100 * (at.q(1) - at.q(2));
                          Q(0) += at.time / 10 - a;
                          Q(1) += a - b;

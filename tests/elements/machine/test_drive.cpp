@@ -156,7 +156,7 @@ TEST_CASE("drive: a spring and a damper about the command, in either sense", "[a
     const System system = driven({}, command);
     Workspace workspace(system.model);
     const Vector q = one(0.1);
-    system.forces.derivatives(kinematics(system.model, q, workspace), 0, q, q, d);
+    system.forces.derivatives({{.q = q, .qd = q}, kinematics(system.model, q, workspace)}, d);
     CHECK(d.elastic(0, 0) == 500);
     CHECK(d.loads(0, 0) == 0);
 }

@@ -92,7 +92,7 @@ TEST_CASE("end stop: without damping a flywheel comes back as fast, from the dep
         options.method = method;
         solvers::Event turn;
         turn.name = "turns back";
-        turn.function = [](const ForceInput& in) { return in.qd(0); };
+        turn.function = [](const StateView& in) { return in.qd(0); };
         options.events = {turn};
         const System system = stopped(shaft, stop);
         solvers::Integrator integrator(system, {}, 0, one(0), one(rate), options);

@@ -90,7 +90,7 @@ TEST_CASE("generator: off the grid there is no torque; copies of a force share t
     const auto torque = [&](const Forces& forces) {
         const Vector q = one(0), qd = one(3.2);
         Vector Q(1);
-        forces.generalised_forces(kinematics(system.model, q, workspace), 0, q, qd, Q);
+        forces.generalised_forces({{.q = q, .qd = qd}, kinematics(system.model, q, workspace)}, Q);
         return Q(0);
     };
     CHECK(torque(copy) < -1e5);
@@ -159,13 +159,13 @@ TEST_CASE("generator: a table acts as a force with its exact slope, without allo
         CHECK(f.by_qd == Approx(-1600 * table().slope(40 * rate)).epsilon(1e-14));
     }
     Workspace workspace(system.model);
-    const Vector q = one(0), qd = one(3);
+    const State state{.q = one(0), .qd = one(3)};
     Vector Q(1);
     ForceDerivatives d;
     const auto call = [&] {
-        const Kinematics kin = kinematics(system.model, q, workspace);
-        system.forces.generalised_forces(kin, 0, q, qd, Q);
-        system.forces.derivatives(kin, 0, q, qd, d);
+        const StateView at(state, kinematics(system.model, state.q, workspace));
+        system.forces.generalised_forces(at, Q);
+        system.forces.derivatives(at, d);
     };
     call();
     if (AllocationGuard::works()) CHECK(allocations(call) == 0);
@@ -179,9 +179,8 @@ TEST_CASE("generator: its channels are torque on its own shaft and power", "[pro
     const Vector q = one(0), qd = one(3.2), none = one(0);
     Workspace workspace(system.model);
     const Kinematics kin = kinematics(system.model, q, workspace);
-    const JointLoads loads = joint_loads(kin, system.forces, qd, none);
     double values[2];
-    group.sample({0, q, qd, none, none, kin, system.forces, loads, no_states, no_states, no_states}, values);
+    group.sample({{{.q = q, .qd = qd}, none, {}, none}, kin, system.forces, system.loops}, values);
     CHECK(values[0] == machine.torque(160.0));
     CHECK(values[1] == Approx(160 * machine.torque(160.0)).epsilon(1e-14));
 }

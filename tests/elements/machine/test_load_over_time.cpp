@@ -167,12 +167,12 @@ TEST_CASE("load over time: at each time a dead or following load is that wrench,
                 REQUIRE(scaled(with_time.Q(found.with_load_factor(factor, true)) - factor * Q, Q) < 1e-13);
             const Kinematics kin = with_time.kin();
             ForceDerivatives a, b;
-            found.derivatives(kin, with_time.time, with_time.q, with_time.qd, a);
-            expected.derivatives(kin, with_time.time, with_time.q, with_time.qd, b);
+            found.derivatives({with_time, kin}, a);
+            expected.derivatives({with_time, kin}, b);
             REQUIRE(scaled(a.loads - b.loads, b.loads) < 1e-13);
             const Vector qdd = with_time.qd;
-            const JointLoads now = joint_loads(kin, found, with_time.qd, qdd, with_time.time),
-                             then = joint_loads(kin, expected, with_time.qd, qdd);
+            const JointLoads now = joint_loads({with_time, kin}, found, qdd),
+                             then = joint_loads({with_time, kin}, expected, qdd);
             for (int k = 0; k < with_time.n; ++k) {
                 REQUIRE(scaled(entry(now.joint, k).moment - entry(then.joint, k).moment, entry(then.joint, k).moment) <
                         1e-12);

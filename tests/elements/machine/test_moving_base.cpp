@@ -95,7 +95,7 @@ std::array<Vec3, 3> moved(const Float& f, const Motion& m, const Vec3& r) {
     frame_jacobian<double>(kin, f.base.frame, J);
     const Vec6 twist = J * qd;
     const Vec3 arm = at.R * r;
-    const JointLoads loads = joint_loads(kin, f.system.forces, qd, qdd);
+    const JointLoads loads = joint_loads({{.q = q, .qd = qd}, kin}, f.system.forces, qdd);
     return {Vec3(at.p + arm), Vec3(twist.tail<3>() + cross<double>(Vec3(twist.head<3>()), arm)),
             loads.motion.back().at(at.p + arm)};
 }
@@ -193,7 +193,7 @@ TEST_CASE("moving base: a free one falls like a body", "[analytic]") {
     ForwardDynamics forward(model);
     const Forces falling = f.system.forces.with_gravity({0, 0, -9.8});
     const Kinematics kin = kinematics(model, q, workspace);
-    falling.generalised_forces(kin, 0, q, none, Q);
+    falling.generalised_forces({{.q = q, .qd = none}, kin}, Q);
     forward.solve(kin, none, Q, qdd, actuator);
     for (BaseCoordinate which : all) {
         const double expected = which == BaseCoordinate::heave ? -9.8 : 0;

@@ -127,7 +127,7 @@ TEST_CASE("point spring: a cable hangs slack, then holds", "[analytic]") {
     const DynamicState& now = run.state();
     Workspace workspace(system.model);
     const Kinematics kin = kinematics(system.model, now.q, workspace);
-    const JointLoads loads = joint_loads({now.time, now.q, now.qd, kin, now.s, now.u}, system.forces, now.qdd);
+    const JointLoads loads = joint_loads({now, kin}, system.forces, now.qdd);
     CHECK(std::abs(loads.joint.at(0).force.z()) < 1e-6);
 }
 

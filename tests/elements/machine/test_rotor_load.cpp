@@ -110,7 +110,7 @@ TEST_CASE("rotor load: the force is the wrench on the hub, its Jacobian the diff
             });
         };
         ForcedTree own = with(true), differenced = with(false);
-        const ForceInput now{own.time, own.q, own.qd, own.kin(), no_states, no_states};
+        const StateView now(own, own.kin());
         const Wrench wrench = load.wrench(now);
         ForcedTree dead(seed, [&](ForcedTree& at, ForceSet& set) {
             set.add_wrench({"wrench", at.add_tip(), wrench, WrenchAxes::base});
@@ -118,8 +118,8 @@ TEST_CASE("rotor load: the force is the wrench on the hub, its Jacobian the diff
         CHECK(own.Q().norm() > 1e-2);
         CHECK(scaled(own.Q() - dead.Q(), dead.Q()) < 1e-13);
         ForceDerivatives a, b;
-        own.forces().derivatives(own.kin(), own.time, own.q, own.qd, a);
-        differenced.forces().derivatives(differenced.kin(), differenced.time, differenced.q, differenced.qd, b);
+        own.forces().derivatives({own, own.kin()}, a);
+        differenced.forces().derivatives({differenced, differenced.kin()}, b);
         CHECK(a.loads.norm() > 1e-2);
         CHECK(a.damping.norm() > 1e-3);
         CHECK(scaled(a.loads - b.loads, a.loads) < 1e-8);
@@ -127,8 +127,8 @@ TEST_CASE("rotor load: the force is the wrench on the hub, its Jacobian the diff
         Vector Q(ForcedTree::n);
         const auto call = [&] {
             const Kinematics kin = own.kin();
-            own.forces().generalised_forces(kin, own.time, own.q, own.qd, Q);
-            own.forces().derivatives(kin, own.time, own.q, own.qd, a);
+            own.forces().generalised_forces({own, kin}, Q);
+            own.forces().derivatives({own, kin}, a);
         };
         if (AllocationGuard::works()) CHECK(allocations(call) == 0);
     }

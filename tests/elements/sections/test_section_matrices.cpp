@@ -99,7 +99,7 @@ Mat6 chain_tip_compliance(const BeamLine& line, int elements, double delta) {
     frame_jacobian(kinematics(system.model, zero, workspace), beam.tip(), J);
     const std::vector<int> linear_first{3, 4, 5, 0, 1, 2};
     J = Matrix(J(linear_first, Eigen::all));
-    const Matrix K = solvers::linearise(system, {zero, zero, zero, 0}).stiffness();
+    const Matrix K = solvers::linearise(system, at_rest(zero)).stiffness();
     const Vector d = K.diagonal().cwiseSqrt().cwiseInverse();
     const Matrix scaled = J * d.asDiagonal();
     return scaled * Matrix(d.asDiagonal() * K * d.asDiagonal()).llt().solve(Matrix(scaled.transpose()));

@@ -27,7 +27,7 @@ struct Fixture {
         REQUIRE(factor.factorise(kin).ok());
         REQUIRE(curvature.update(kin).ok());
         embedding.update(kin);
-        system.forces.derivatives(kin, 0, x, x, of_forces);
+        system.forces.derivatives({{.q = x, .qd = x}, kin}, of_forces);
     }
 
     Random random;
@@ -68,15 +68,36 @@ std::vector<Door> doors_of_vectors(Fixture& f, Vector& bad) {
         {"forward dynamics Q", [&] { f.forward.solve(kin, x, bad, y, z); }},
         {"forward dynamics qdd", [&] { f.forward.solve(kin, x, x, bad, z); }},
         {"forward dynamics actuator", [&] { f.forward.solve(kin, x, x, y, bad); }},
-        {"forces q", [&] { forces.generalised_forces(kin, 0, bad, x, y); }},
-        {"forces qd", [&] { forces.generalised_forces(kin, 0, x, bad, y); }},
-        {"forces Q", [&] { forces.generalised_forces(kin, 0, x, x, bad); }},
+        {"forces q",
+         [&] {
+             forces.generalised_forces({{.q = bad, .qd = x}, kin}, y);
+         }},
+        {"forces qd",
+         [&] {
+             forces.generalised_forces({{.q = x, .qd = bad}, kin}, y);
+         }},
+        {"forces Q",
+         [&] {
+             forces.generalised_forces({{.q = x, .qd = x}, kin}, bad);
+         }},
         {"elements q", [&] { forces.generalised_forces_of_elements<double>(kin, bad, x, y); }},
         {"elements Q", [&] { forces.generalised_forces_of_elements<double>(kin, x, x, bad); }},
-        {"force derivatives q", [&] { forces.derivatives(kin, 0, bad, x, f.of_forces); }},
-        {"force derivatives qd", [&] { forces.derivatives(kin, 0, x, bad, f.of_forces); }},
-        {"potential energy q", [&] { forces.potential_energy(kin, 0, bad, x); }},
-        {"report qd", [&] { forces.report(kin, 0, x, bad); }},
+        {"force derivatives q",
+         [&] {
+             forces.derivatives({{.q = bad, .qd = x}, kin}, f.of_forces);
+         }},
+        {"force derivatives qd",
+         [&] {
+             forces.derivatives({{.q = x, .qd = bad}, kin}, f.of_forces);
+         }},
+        {"potential energy q",
+         [&] {
+             forces.potential_energy({{.q = bad, .qd = x}, kin});
+         }},
+        {"report qd",
+         [&] {
+             forces.report({{.q = x, .qd = bad}, kin});
+         }},
         {"dissipation", [&] { forces.dissipation(bad); }},
         {"branch matrix x", [&] { f.P.multiply(bad, y); }},
         {"branch matrix y", [&] { f.P.multiply(x, bad); }},
@@ -118,8 +139,14 @@ std::vector<Door> doors_of_vectors(Fixture& f, Vector& bad) {
         {"embedding second beta", [&] { f.embedding.second(x, f.field, x, f.field, bad, f.acceleration); }},
         {"embedding pull", [&] { f.embedding.pull(f.acceleration, bad); }},
         {"embedding pull second", [&] { f.embedding.pull_second(f.field, f.acceleration, bad); }},
-        {"joint loads qd", [&] { joint_loads(kin, forces, bad, x); }},
-        {"joint loads qdd", [&] { joint_loads(kin, forces, x, bad); }},
+        {"joint loads qd",
+         [&] {
+             joint_loads({{.q = x, .qd = bad}, kin}, forces, x);
+         }},
+        {"joint loads qdd",
+         [&] {
+             joint_loads({{.q = x, .qd = x}, kin}, forces, bad);
+         }},
         {"singular pivot", [&] { singular_pivot(f.A, bad); }},
     };
 }
@@ -245,14 +272,20 @@ TEST_CASE("sizes: what was made for another model is refused, also where the siz
                        {"forward derivatives", [&] { f.derivatives.compute(kin, f.x, f.x).ok(); }},
                        {"curvature", [&] { f.curvature.update(kin).ok(); }},
                        {"embedding", [&] { f.embedding.update(kin); }},
-                       {"forces", [&] { f.system.forces.generalised_forces(kin, 0, f.x, f.x, f.y); }},
-                       {"joint loads", [&] { joint_loads(kin, f.system.forces, f.x, f.x); }}},
+                       {"forces",
+                        [&] {
+                            f.system.forces.generalised_forces({{.q = f.x, .qd = f.x}, kin}, f.y);
+                        }},
+                       {"joint loads",
+                        [&] {
+                            joint_loads({{.q = f.x, .qd = f.x}, kin}, f.system.forces, f.x);
+                        }}},
                       "belongs to another model");
     // A copy counts as the same: systems may be copied and moved with what was made for them.
     const System copy = f.system;
     Workspace of_copy(copy.model);
     const Kinematics at_copy = kinematics(copy.model, f.x, of_copy);
-    CHECK(refusal([&] { f.system.forces.generalised_forces(at_copy, 0, f.x, f.x, f.y); }) == "(accepted)");
+    CHECK(refusal([&] { f.system.forces.generalised_forces({{.q = f.x, .qd = f.x}, at_copy}, f.y); }) == "(accepted)");
 }
 
 TEST_CASE("sizes: fields, loads and derivatives of forces of another size are refused", "[property]") {

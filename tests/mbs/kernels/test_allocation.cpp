@@ -25,7 +25,7 @@ void require_no_allocation(const System& system, std::vector<bool> driven, unsig
     Christoffel gamma(model);
     BranchMatrix packed_g(model), packed_q(model), packed_qd(model);
     ForceDerivatives derivatives;
-    system.forces.derivatives(kinematics(model, q, workspace), 0, q, qd, derivatives);
+    system.forces.derivatives({{.q = q, .qd = qd}, kinematics(model, q, workspace)}, derivatives);
     ForwardDynamics forward(model, std::move(driven));
     const FrameId tip{static_cast<int>(model.frames().size()) - 1};
     for (int round = 0; round < 2; ++round) {
@@ -43,8 +43,9 @@ void require_no_allocation(const System& system, std::vector<bool> driven, unsig
         CHECK(allocations([&] { inverse_dynamics<double>(kin, qd, qdd, tau); }) == 0);
         CHECK(allocations([&] { inverse_dynamics_derivatives(kin, qd, qdd, by_q, by_qd); }) == 0);
         CHECK(allocations([&] { forward.solve(kin, qd, Q, qdd, actuator); }) == 0);
-        CHECK(allocations([&] { system.forces.generalised_forces(kin, 0, q, qd, tau); }) == 0);
-        CHECK(allocations([&] { system.forces.derivatives(kin, 0, q, qd, derivatives); }) == 0);
+        const State state{.q = q, .qd = qd};
+        CHECK(allocations([&] { system.forces.generalised_forces({state, kin}, tau); }) == 0);
+        CHECK(allocations([&] { system.forces.derivatives({state, kin}, derivatives); }) == 0);
         CHECK(allocations([&] { h(0) = kinetic_energy(kin, qd); }) == 0);
     }
 }
@@ -63,7 +64,7 @@ void require_no_allocation_in_geometry(const System& system, const std::vector<b
     ForwardDynamicsDerivatives derivatives(model, driven);
     Curvature curvature(model, driven);
     ForceDerivatives forces;
-    system.forces.derivatives(kinematics(model, q, workspace), 0, q, qd, forces);
+    system.forces.derivatives({{.q = q, .qd = qd}, kinematics(model, q, workspace)}, forces);
     double sum = 0;
     bool ok = true;
     for (int round = 0; round < 2; ++round) {
@@ -179,9 +180,9 @@ TEST_CASE("allocation: around user forces with Jacobians nothing is allocated, u
         const Tree tree = random_tree(random, {.bodies = 7});
         ForceSet set = random_forces(random, tree);
         set.add_user({.name = "drag",
-                      .force = [](const ForceInput& in, VectorOut Q) { Q -= 0.3 * in.qd - 0.1 * in.q; },
+                      .force = [](const StateView& in, VectorOut Q) { Q -= 0.3 * in.qd - 0.1 * in.q; },
                       .jacobian =
-                          [](const ForceInput&, MatrixOut by_q, MatrixOut by_qd) {
+                          [](const StateView&, MatrixOut by_q, MatrixOut by_qd) {
                               by_q.diagonal().array() += 0.1;
                               by_qd.diagonal().array() -= 0.3;
                           },
@@ -193,7 +194,7 @@ TEST_CASE("allocation: around user forces with Jacobians nothing is allocated, u
         Workspace workspace(system.model);
         const Vector zero = Vector::Zero(7);
         Vector Q(7);
-        system.forces.generalised_forces(kinematics(system.model, zero, workspace), 0, zero, zero, Q);
+        system.forces.generalised_forces({{.q = zero, .qd = zero}, kinematics(system.model, zero, workspace)}, Q);
         require_no_allocation(system, driven, 3);
     }
 }

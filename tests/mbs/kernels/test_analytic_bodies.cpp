@@ -158,7 +158,7 @@ TEST_CASE("oscillator: masses in a row between two walls have 2 sqrt(k/m) sin(j 
     Matrix g(n, n);
     metric(kin, g);
     ForceDerivatives d;
-    system.forces.derivatives(kin, 0, zero, zero, d);
+    system.forces.derivatives({{.q = zero, .qd = zero}, kin}, d);
     const Vector squares = Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(d.elastic, g).eigenvalues();
     for (int j = 1; j <= n; ++j)
         CHECK(std::sqrt(squares(j - 1)) ==

@@ -179,7 +179,7 @@ TEST_CASE("double pendulum: small oscillations of equal links have omega^2 = (2 
     Matrix g(2, 2);
     metric(kin, g);
     ForceDerivatives d;
-    pendulum.system.forces.derivatives(kin, 0, zero, zero, d);
+    pendulum.system.forces.derivatives({{.q = zero, .qd = zero}, kin}, d);
     const Vector squares = Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(d.gravity, g).eigenvalues();
     CHECK(squares(0) == Approx((2 - std::sqrt(2)) * gravity / length).epsilon(1e-13));
     CHECK(squares(1) == Approx((2 + std::sqrt(2)) * gravity / length).epsilon(1e-13));

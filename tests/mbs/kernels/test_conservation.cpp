@@ -296,7 +296,7 @@ TEST_CASE("equivalence: Newton-Euler on a base accelerated by -g gives minus the
         Workspace workspace(system.model);
         const Kinematics kin = kinematics(system.model, q, workspace);
         inverse_dynamics<double>(kin, at_rest, qdd, tau);
-        system.forces.generalised_forces(kin, 0, q, at_rest, Q);
+        system.forces.generalised_forces({{.q = q, .qd = at_rest}, kin}, Q);
         REQUIRE(scaled(tau + Q, Q) < 1e-13);
         // The base carries the weight.
         REQUIRE((Q.head<3>() - system.model.mass() * gravity).norm() < 1e-12);

@@ -176,7 +176,7 @@ TEST_CASE("forces: stiffness and damping equal the complex step, springs and gra
         const Vector q = random_state(random, n), qd = random_state(random, n);
         Workspace workspace(system.model);
         ForceDerivatives d;
-        system.forces.derivatives(kinematics(system.model, q, workspace), 0, q, qd, d);
+        system.forces.derivatives({{.q = q, .qd = qd}, kinematics(system.model, q, workspace)}, d);
         WorkspaceT<Complex> complex_workspace(system.model);
         ComplexVector Q(n);
         Matrix K(n, n), D(n, n);

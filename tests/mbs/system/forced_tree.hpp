@@ -9,10 +9,11 @@
 namespace cardan::testing {
 
 /// A random tree of 8 bodies at a random state under some forces.
-class ForcedTree {
+class ForcedTree : public State {
 public:
     ForcedTree(unsigned seed, const std::function<void(ForcedTree&, ForceSet&)>& fill)
         : random(seed), tree(random_tree(random, {.bodies = 8})), system_(make(fill)), workspace_(system_.model) {
+        time = 0.7;
         q = random_state(random, n), qd = random_state(random, n);
     }
     const Model& model() const { return system_.model; }
@@ -20,15 +21,17 @@ public:
     Kinematics kin() { return kinematics(system_.model, q, workspace_); }
     Vector Q(const Forces& of) {
         Vector out(n);
-        of.generalised_forces(kin(), time, q, qd, out);
+        of.generalised_forces({*this, kin()}, out);
         return out;
     }
     Vector Q() { return Q(forces()); }
     double energy_at(const Vector& at) {
         Workspace own(model());
-        return forces().potential_energy(kinematics(model(), at, own), time, at, qd);
+        State moved = *this;
+        moved.q = at;
+        return forces().potential_energy({moved, kinematics(model(), at, own)});
     }
-    std::vector<ForceReport> report() { return forces().report(kin(), time, q, qd); }
+    std::vector<ForceReport> report() { return forces().report({*this, kin()}); }
     FrameId frame(int body) const { return tree.frame_of(BodyId{body}); }
     // A frame somewhere on the body that most joints carry.
     FrameId add_tip() {
@@ -44,8 +47,6 @@ public:
     static constexpr int n = 8;
     Random random;
     Tree tree;
-    Vector q, qd;
-    double time = 0.7;
 
 private:
     System make(const std::function<void(ForcedTree&, ForceSet&)>& fill) {

@@ -31,7 +31,7 @@ WrenchField field_of(const DeadLoads& loads) {
     return {
         .name = "field",
         .points = loads.points,
-        .wrenches = [own = loads.wrenches](const ForceInput&,
+        .wrenches = [own = loads.wrenches](const StateView&,
                                            std::span<Wrench> out) { std::copy(own.begin(), own.end(), out.begin()); },
         .jacobian = {},
         .breaks = {}};
@@ -64,7 +64,7 @@ TEST_CASE("fields: constant wrenches have the forces and derivatives of loads on
         CHECK(scaled(twins.as_field.Q() - Q, Q) < 1e-13);
         const auto derivatives = [](ForcedTree& at, const Forces& forces) {
             ForceDerivatives out;
-            forces.derivatives(at.kin(), at.time, at.q, at.qd, out);
+            forces.derivatives({at, at.kin()}, out);
             return out;
         };
         const ForceDerivatives own = derivatives(twins.as_field, twins.as_field.forces()),
@@ -85,10 +85,7 @@ TEST_CASE("fields: constant wrenches have the forces and derivatives of loads on
 TEST_CASE("fields: joints carry them", "[crosscheck]") {
     Twins twins(3);
     const Vector qdd = random_state(twins.as_field.random, ForcedTree::n);
-    const auto loads = [&](ForcedTree& at) {
-        const ForceInput input{at.time, at.q, at.qd, at.kin(), no_states, no_states};
-        return joint_loads(input, at.forces(), qdd);
-    };
+    const auto loads = [&](ForcedTree& at) { return joint_loads({at, at.kin()}, at.forces(), qdd); };
     const JointLoads own = loads(twins.as_field), expected = loads(twins.one_by_one);
     for (std::size_t k = 0; k < own.joint.size(); ++k) {
         CHECK((own.joint[k].force - expected.joint[k].force).norm() < 1e-12);
@@ -106,7 +103,7 @@ WrenchField maxwell_field(const ForcedTree& at, int body, bool exact) {
     WrenchField field{.name = "bushing", .points = {{at.frame(body), Vec3::Zero()}}};
     field.states = {{.name = "bushing force", .unit = "N", .scale = 2}};
     // Of the origin, along x.
-    const auto twist = [body](const ForceInput& in, int a) {
+    const auto twist = [body](const StateView& in, int a) {
         const Model& model = in.kinematics.model();
         return model.precedes(a, model.index(BodyId{body}))
                    ? own_twist_at(in.kinematics, a, in.kinematics.origin(model.index(BodyId{body}))).v.x()
@@ -139,18 +136,17 @@ TEST_CASE("fields: with a state, by differences and exactly", "[crosscheck]") {
                               [exact](ForcedTree& at, ForceSet& set) { set.add_field(maxwell_field(at, 5, exact)); });
         };
         ForcedTree tree = make(false), exact = make(true);
-        const Vector s = Vector::Constant(1, 1.7);
+        const Vector s = tree.s = exact.s = Vector::Constant(1, 1.7);
         CHECK(tree.forces().states().size() == 1);
         REQUIRE(tree.forces().state_groups().size() == 1);
         CHECK(tree.forces().state_groups()[0].coordinates.size() == ForcedTree::n);
         Vector Q(ForcedTree::n), rates(1);
-        const Kinematics kin = tree.kin();
-        tree.forces().evaluate({tree.time, tree.q, tree.qd, kin, s, no_states}, Q, rates);
-        ForceDerivatives a, b;
-        StateDerivatives by_differences, by_hand;
-        tree.forces().derivatives({tree.time, tree.q, tree.qd, kin, s, no_states}, a, by_differences);
-        const Kinematics other = exact.kin();
-        exact.forces().derivatives({exact.time, exact.q, exact.qd, other, s, no_states}, b, by_hand);
+        tree.forces().generalised_forces({tree, tree.kin()}, Q, rates);
+        ForceDerivatives a, b, c;
+        tree.forces().derivatives({tree, tree.kin()}, a);
+        const StateView at(exact, exact.kin());
+        exact.forces().derivatives(at, b);
+        const StateDerivatives &by_differences = a.states, &by_hand = b.states, &half_states = c.states;
         CHECK((by_differences.Q_s - by_hand.Q_s).norm() < 1e-8 * (1 + by_hand.Q_s.norm()));
         CHECK((by_differences.f_qd - by_hand.f_qd).norm() < 1e-7 * (1 + by_hand.f_qd.norm()));
         CHECK((by_differences.f_s - by_hand.f_s).norm() < 1e-8);
@@ -158,11 +154,10 @@ TEST_CASE("fields: with a state, by differences and exactly", "[crosscheck]") {
         CHECK((Q - by_hand.Q_s * s).norm() < 1e-12 * (1 + Q.norm()));
         const Forces half = exact.forces().with_load_factor(0.5, false);
         Vector half_Q(ForcedTree::n), same_rates(1);
-        half.evaluate({exact.time, exact.q, exact.qd, other, s, no_states}, half_Q, same_rates);
+        half.generalised_forces(at, half_Q, same_rates);
         CHECK((half_Q - Q / 2).norm() < 1e-12 * (1 + Q.norm()));
         CHECK(same_rates(0) == Approx(rates(0)));
-        StateDerivatives half_states;
-        half.derivatives({exact.time, exact.q, exact.qd, other, s, no_states}, b, half_states);
+        half.derivatives(at, c);
         CHECK((half_states.Q_s - by_hand.Q_s / 2).norm() < 1e-12 * (1 + by_hand.Q_s.norm()));
         CHECK((half_states.f_qd - by_hand.f_qd).isZero(0));
         check_refused([&] { tree.Q(); }, {"forces", "number of states", "1"});
@@ -175,7 +170,7 @@ TEST_CASE("fields: what is refused", "[validation]") {
     check_refused(
         [&] {
             set.add_field({.name = "air",
-                           .wrenches = [](const ForceInput&, std::span<Wrench>) {},
+                           .wrenches = [](const StateView&, std::span<Wrench>) {},
                            .states = {{.name = "lag", .unit = "1", .scale = 1}}});
         },
         {"air", "evaluate"});
@@ -183,7 +178,7 @@ TEST_CASE("fields: what is refused", "[validation]") {
         [&] {
             set.add_field({.name = "air",
                            .points = {{Tree::base(), Vec3(0, std::nan(""), 0)}},
-                           .wrenches = [](const ForceInput&, std::span<Wrench>) {}});
+                           .wrenches = [](const StateView&, std::span<Wrench>) {}});
         },
         {"air", "place [m]", "finite"});
     check_refused(
@@ -191,14 +186,10 @@ TEST_CASE("fields: what is refused", "[validation]") {
             ForcedTree(1, [](ForcedTree&, ForceSet& forces) {
                 forces.add_field({.name = "air",
                                   .points = {{FrameId{999}, Vec3::Zero()}},
-                                  .wrenches = [](const ForceInput&, std::span<Wrench>) {}});
+                                  .wrenches = [](const StateView&, std::span<Wrench>) {}});
             });
         },
         {"air", "frame", "999"});
-    Twins twins(1);
-    check_refused(
-        [&] { joint_loads(twins.as_field.kin(), twins.as_field.forces(), twins.as_field.qd, twins.as_field.qd); },
-        {"joint loads", "number of fields", "1"});
 }
 
 }  // namespace cardan::testing::field_tests

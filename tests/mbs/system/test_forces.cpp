@@ -101,7 +101,7 @@ TEST_CASE("forces: the powers reported add up to Q . qd, one by one and together
     for (unsigned seed = 0; seed < 30; ++seed) {
         ForcedTree s(seed, [](ForcedTree& at, ForceSet& set) {
             set = random_forces(at.random, at.tree);
-            set.add_user({.name = "drag", .force = [](const ForceInput& in, VectorOut Q) { Q -= 0.3 * in.qd; }});
+            set.add_user({.name = "drag", .force = [](const StateView& in, VectorOut Q) { Q -= 0.3 * in.qd; }});
         });
         double power = 0;
         for (const ForceReport& element : s.report()) power += element.power;
@@ -216,7 +216,7 @@ TEST_CASE("forces: rows and columns of a coupled block belong to its coordinates
     expected(at[1]) -= 2 * (s.q(at[1]) + 0.4) + 0.25 * s.qd(at[1]);
     CHECK((s.Q() - expected).cwiseAbs().maxCoeff() < 1e-14);
     ForceDerivatives d;
-    s.forces().derivatives(s.kin(), s.time, s.q, s.qd, d);
+    s.forces().derivatives({s, s.kin()}, d);
     Matrix expected_K = Matrix::Zero(s.n, s.n), expected_D = expected_K;
     expected_K(at, at) = K;
     expected_D(at, at) = D;
@@ -231,7 +231,7 @@ TEST_CASE("forces: rows and columns of a coupled block belong to its coordinates
 TEST_CASE("forces: dissipation is the power of the damping matrix", "[property]") {
     ForcedTree s(12, [](ForcedTree& at, ForceSet& set) { set = random_forces(at.random, at.tree); });
     ForceDerivatives d;
-    s.forces().derivatives(s.kin(), s.time, s.q, s.qd, d);
+    s.forces().derivatives({s, s.kin()}, d);
     const double expected = s.qd.dot(d.damping * s.qd);
     CHECK(std::abs(expected) > 0.1);
     CHECK(s.forces().dissipation(s.qd) == Approx(expected).epsilon(1e-13));
@@ -248,5 +248,5 @@ TEST_CASE("forces: with_gravity() replaces gravity and nothing else", "[property
     CHECK(one_part.norm() > 0.1);
     CHECK(scaled(two_parts - 2 * one_part, two_parts) < 1e-13);
     CHECK(s.forces().gravity() == g);
-    CHECK(none.report(s.kin(), s.time, s.q, s.qd).size() + 1 == s.report().size());
+    CHECK(none.report({s, s.kin()}).size() + 1 == s.report().size());
 }

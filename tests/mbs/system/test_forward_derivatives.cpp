@@ -108,7 +108,7 @@ void require_equal_to_complex_step(Case& s) {
         oracle(s.q.cast<Complex>(), s.qd.cast<Complex>(), s.Q.cast<Complex>(), s.prescribed.cast<Complex>()).qdd.real();
     const Kinematics kin = kinematics(model, s.q, s.workspace);
     ForceDerivatives by_force;
-    if (s.forces != nullptr) s.forces->derivatives(kin, 0, s.q, s.qd, by_force);
+    if (s.forces != nullptr) s.forces->derivatives({{.q = s.q, .qd = s.qd}, kin}, by_force);
     ForwardDynamicsDerivatives derivatives(model, s.driven);
     REQUIRE(derivatives.compute(kin, s.qd, qdd, s.forces != nullptr ? &by_force : nullptr).ok());
 

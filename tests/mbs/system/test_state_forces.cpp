@@ -68,10 +68,11 @@ ForcedTree machine(unsigned seed, bool with_jacobian) {
 
 struct States {
     Vector s, u;
-    ForceInput of(ForcedTree& tree) const { return {tree.time, tree.q, tree.qd, tree_kin(tree), s, u}; }
-    static const Kinematics& tree_kin(ForcedTree& tree) {
-        static thread_local std::optional<Kinematics> kin;
-        return kin.emplace(tree.kin());
+    // The tree gets them.
+    StateView of(ForcedTree& tree) const {
+        tree.s = s;
+        tree.u = u;
+        return {tree, tree.kin()};
     }
 };
 
@@ -82,14 +83,9 @@ States some_states() {
     return states;
 }
 
-struct Derivatives {
-    ForceDerivatives forces;
-    StateDerivatives states;
-};
-
-Derivatives derivatives(ForcedTree& tree, const States& states) {
-    Derivatives out;
-    tree.forces().derivatives(states.of(tree), out.forces, out.states);
+ForceDerivatives derivatives(ForcedTree& tree, const States& states) {
+    ForceDerivatives out;
+    tree.forces().derivatives(states.of(tree), out);
     return out;
 }
 
@@ -99,7 +95,7 @@ struct Values {
 
 Values values(ForcedTree& tree, const States& states) {
     Values out{Vector(ForcedTree::n), Vector(3)};
-    tree.forces().evaluate(states.of(tree), out.Q, out.f);
+    tree.forces().generalised_forces(states.of(tree), out.Q, out.f);
     return out;
 }
 
@@ -136,7 +132,7 @@ TEST_CASE("elements with states: derivatives of the system are central differenc
     for (unsigned seed = 0; seed < 5; ++seed) {
         ForcedTree tree = machine(seed, true);
         States states = some_states();
-        const Derivatives d = derivatives(tree, states);
+        const ForceDerivatives d = derivatives(tree, states);
         const double h = 1e-5;
         const auto column = [&](double& value) {
             const double middle = value;
@@ -149,8 +145,8 @@ TEST_CASE("elements with states: derivatives of the system are central differenc
         };
         for (int i = 0; i < ForcedTree::n; ++i) {
             const Values by_q = column(tree.q(i)), by_qd = column(tree.qd(i));
-            CHECK((by_q.Q + d.forces.elastic.col(i) + d.forces.loads.col(i)).norm() < 1e-8);
-            CHECK((by_qd.Q + d.forces.damping.col(i)).norm() < 1e-8);
+            CHECK((by_q.Q + d.elastic.col(i) + d.loads.col(i)).norm() < 1e-8);
+            CHECK((by_qd.Q + d.damping.col(i)).norm() < 1e-8);
             CHECK((by_q.f - d.states.f_q.col(i)).norm() < 1e-8);
             CHECK((by_qd.f - d.states.f_qd.col(i)).norm() < 1e-8);
         }
@@ -167,9 +163,9 @@ TEST_CASE("elements with states: derivatives of the system are central differenc
 
 TEST_CASE("elements with states: without a Jacobian they are differenced", "[property]") {
     ForcedTree given = machine(3, true), differenced = machine(3, false);
-    const Derivatives a = derivatives(given, some_states()), b = derivatives(differenced, some_states());
-    CHECK((a.forces.loads - b.forces.loads).norm() < 1e-8);
-    CHECK((a.forces.damping - b.forces.damping).norm() < 1e-8);
+    const ForceDerivatives a = derivatives(given, some_states()), b = derivatives(differenced, some_states());
+    CHECK((a.loads - b.loads).norm() < 1e-8);
+    CHECK((a.damping - b.damping).norm() < 1e-8);
     CHECK((a.states.Q_s - b.states.Q_s).norm() < 1e-7);
     CHECK((a.states.f_s - b.states.f_s).norm() < 1e-7);
     CHECK((a.states.f_q - b.states.f_q).norm() < 1e-8);
@@ -180,12 +176,12 @@ TEST_CASE("elements with states: evaluation and derivatives allocate nothing", "
     for (const bool with_jacobian : {true, false}) {
         ForcedTree tree = machine(4, with_jacobian);
         const States states = some_states();
-        const ForceInput at = states.of(tree);
+        const StateView at = states.of(tree);
         Values out = values(tree, states);
-        Derivatives d = derivatives(tree, states);
+        ForceDerivatives d = derivatives(tree, states);
         CHECK(allocations([&] {
-                  tree.forces().evaluate(at, out.Q, out.f);
-                  tree.forces().derivatives(at, d.forces, d.states);
+                  tree.forces().generalised_forces(at, out.Q, out.f);
+                  tree.forces().derivatives(at, d);
               }) == 0);
     }
 }
@@ -195,7 +191,7 @@ TEST_CASE("elements with states: a load factor multiplies their forces, not the 
     const States states = some_states();
     const Forces twice = tree.forces().with_load_factor(2, false);
     Values once = values(tree, states), both = once;
-    twice.evaluate(states.of(tree), both.Q, both.f);
+    twice.generalised_forces(states.of(tree), both.Q, both.f);
     const int a = tree.model().index(BodyId{2}), spring = tree.model().index(BodyId{3});
     CHECK(both.Q(a) == Approx(2 * once.Q(a)).epsilon(1e-14));
     CHECK(both.Q(spring) == once.Q(spring));
@@ -206,10 +202,13 @@ TEST_CASE("elements with states: what does not take them into account refuses th
     ForcedTree tree = machine(6, true);
     check_refused([&] { (void)tree.Q(); }, {"number of states = 3"});
     ForceDerivatives d;
-    check_refused([&] { tree.forces().derivatives(tree.kin(), 0, tree.q, tree.qd, d); }, {"number of states = 3"});
+    check_refused([&] { tree.forces().derivatives({tree, tree.kin()}, d); }, {"elements with states", "s", "3"});
     Values out{Vector(ForcedTree::n), Vector(3)};
-    const ForceInput without{0, tree.q, tree.qd, States::tree_kin(tree), no_states, no_states};
-    check_refused([&] { tree.forces().evaluate(without, out.Q, out.f); }, {"elements with states", "s", "3"});
+    check_refused(
+        [&] {
+            tree.forces().generalised_forces({tree, tree.kin()}, out.Q, out.f);
+        },
+        {"elements with states", "s", "3"});
 }
 
 TEST_CASE("elements with states: names, scales and coordinates that cannot be are refused", "[property]") {

@@ -14,7 +14,7 @@ namespace {
 // with time, and quadratic damping.
 UserForce hardening_spring(FrameId tip, bool with_jacobian) {
     UserForce user{.name = "hardening spring"};
-    user.force = [tip](const ForceInput& in, VectorOut Q) {
+    user.force = [tip](const StateView& in, VectorOut Q) {
         const Eigen::Index n = in.q.size();
         Matrix J(6, n);
         frame_jacobian<double>(in.kinematics, tip, J);
@@ -22,9 +22,9 @@ UserForce hardening_spring(FrameId tip, bool with_jacobian) {
         Q -= (1 + in.time) * J.bottomRows<3>().transpose() * p;
         Q.array() -= 0.2 * in.qd.array() * in.qd.array().abs();
     };
-    user.energy = [tip](const ForceInput& in) { return (1 + in.time) * pose(in.kinematics, tip).p.squaredNorm() / 2; };
+    user.energy = [tip](const StateView& in) { return (1 + in.time) * pose(in.kinematics, tip).p.squaredNorm() / 2; };
     if (with_jacobian)
-        user.jacobian = [tip](const ForceInput& in, MatrixOut by_q, MatrixOut by_qd) {
+        user.jacobian = [tip](const StateView& in, MatrixOut by_q, MatrixOut by_qd) {
             const Model& model = in.kinematics.model();
             const Eigen::Index n = in.q.size();
             Matrix J(6, n);
@@ -56,9 +56,9 @@ TEST_CASE("user forces: with and without their Jacobian the derivatives agree", 
         CHECK((given.Q() - differenced.Q()).isZero(0));
         CHECK(given.Q().norm() > 0);
         ForceDerivatives a, b;
-        given.forces().derivatives(given.kin(), given.time, given.q, given.qd, a);
+        given.forces().derivatives({given, given.kin()}, a);
         const Kinematics kin = differenced.kin();
-        differenced.forces().derivatives(kin, differenced.time, differenced.q, differenced.qd, b);
+        differenced.forces().derivatives({differenced, kin}, b);
         CHECK(a.loads.norm() > 0.1);
         CHECK(scaled(a.loads - b.loads, a.loads) < 1e-8);
         CHECK(scaled(a.damping - b.damping, a.damping) < 1e-8);
@@ -82,7 +82,7 @@ TEST_CASE("user forces: a force with an energy is its gradient, and both see the
 
 TEST_CASE("user forces: a linear law written as a user force is the law, forces add up", "[property]") {
     for (unsigned seed = 0; seed < 10; ++seed) {
-        const auto law = [](const ForceInput& in, VectorOut Q) { Q -= 3 * in.q + 0.5 * in.qd; };
+        const auto law = [](const StateView& in, VectorOut Q) { Q -= 3 * in.q + 0.5 * in.qd; };
         ForcedTree user(seed, [&](ForcedTree& at, ForceSet& set) {
             set.set_gravity(random_vector(at.random));
             set.add_user({.name = "law", .force = law});

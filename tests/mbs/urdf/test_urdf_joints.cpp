@@ -254,7 +254,7 @@ TEST_CASE("urdf: the viscous damping becomes force elements, Q = -d qd on the jo
     Workspace workspace(system.model);
     const Vector q = Vector::Constant(2, 0.3), qd = (Vector(2) << 2, 3).finished();
     Vector Q(2);
-    system.forces.generalised_forces(kinematics(system.model, q, workspace), 0, q, qd, Q);
+    system.forces.generalised_forces({{.q = q, .qd = qd}, kinematics(system.model, q, workspace)}, Q);
     CHECK(Q(0) == Approx(-1.4).epsilon(1e-15));
     CHECK(Q(1) == 0);
     check_refused([&] { (void)joint_damping(model.tree, {{.coordinate = "third", .damping = 1}}); },

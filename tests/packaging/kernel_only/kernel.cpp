@@ -16,7 +16,7 @@ int main() {
     Workspace workspace(system.model);
     const Vector q = Vector::Constant(1, 0.3), qd = Vector::Zero(1);
     Vector Q(1);
-    system.forces.generalised_forces(kinematics(system.model, q, workspace), 0, q, qd, Q);
+    system.forces.generalised_forces({{.q = q, .qd = qd}, kinematics(system.model, q, workspace)}, Q);
     std::cout << "torque " << Q(0) << " N m\n";
     return std::abs(Q(0) + 2.0 * units::standard_gravity * 0.5 * std::cos(0.3)) < 1e-12 ? 0 : 1;
 }

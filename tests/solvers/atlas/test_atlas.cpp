@@ -92,7 +92,7 @@ TEST_CASE("atlas: the user's own events and cancellation work in every chart", "
     for (Chart* chart : {&first, &second}) {
         const int pendulum = chart->system->model.index("pendulum");
         chart->options.events = {{.name = "pendulum rises",
-                                  .function = [pendulum](const ForceInput& at) { return at.q(pendulum); },
+                                  .function = [pendulum](const StateView& at) { return at.q(pendulum); },
                                   .direction = 1}};
     }
     second.options.cancelled = [&] { return ++asked > 2000; };

@@ -92,7 +92,7 @@ TEST_CASE("campbell file by Floquet: participations are the shares of the harmon
     Matrix M = Matrix::Zero(T.rows(), T.rows()), K = M;
     constexpr int azimuths = 60;
     for (int s = 0; s < azimuths; ++s) {
-        const OperatingPoint at = d.points[1].periodic->at(2 * pi * s / azimuths);
+        const DynamicState at = d.points[1].periodic->at(2 * pi * s / azimuths);
         const SecondOrderSystem system = restrict_to(linearise(rotor.system, at), rotor.unknowns());
         M += T.transpose() * system.M * T / azimuths;
         K += T.transpose() * system.K_elastic * T / azimuths;

@@ -223,11 +223,11 @@ TEST_CASE("campbell over a parameter: an instability is told with its place on t
     spec.more = [](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
         forces.add_user({.name = "push",
                          .force =
-                             [](const ForceInput& at, VectorOut Q) {
+                             [](const StateView& at, VectorOut Q) {
                                  for (const int i : {1, 2}) Q(i) += 20 * at.qd(i);
                              },
                          .jacobian =
-                             [](const ForceInput&, MatrixOut, MatrixOut dQ_dqd) {
+                             [](const StateView&, MatrixOut, MatrixOut dQ_dqd) {
                                  for (const int i : {1, 2}) dQ_dqd(i, i) += 20;
                              }});
     };

@@ -31,9 +31,9 @@ struct Machine {
     }
 };
 
-Linearisation at_rest(const System& system) {
+Linearisation linearised(const System& system) {
     const int n = system.model.size();
-    return linearise(system, {Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0.0});
+    return linearise(system, at_rest(Vector::Zero(n)));
 }
 
 std::vector<MultiBladeRow> plain(const System& system) {
@@ -59,7 +59,7 @@ Machine mast() {
 }
 
 EnergyShares energy_shares_of(const SmallRotor& rotor) {
-    return {at_rest(rotor.system), rotor.system.model, rotor.map, rotor.unknowns(),
+    return {linearised(rotor.system), rotor.system.model, rotor.map, rotor.unknowns(),
             ColemanTransform(rotor.map, rotor.unknowns()).rows()};
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("energy shares: components are named after the axis of their coordinat
     const Machine m = mast();
     const System system(m.tree, m.forces);
     const std::vector<int> all = system.model.coordinates().free();
-    const EnergyShares energy_shares(at_rest(system), system.model, m.map, all, plain(system));
+    const EnergyShares energy_shares(linearised(system), system.model, m.map, all, plain(system));
     std::vector<std::string> names;
     double last = 0;
     for (std::size_t i = 0; i < energy_shares.components().size(); ++i) {
@@ -102,7 +102,7 @@ TEST_CASE("energy shares: shares of random shapes add up to one and follow the s
     const Machine m = mast();
     const System system(m.tree, m.forces);
     const std::vector<int> all = system.model.coordinates().free();
-    const Linearisation lin = at_rest(system);
+    const Linearisation lin = linearised(system);
     const EnergyShares energy_shares(lin, system.model, m.map, all, plain(system));
     const SecondOrderSystem whole = restrict_to(lin, all);
     Random random(5);
@@ -129,7 +129,7 @@ TEST_CASE("energy shares: a part without a family name is called by its own; rig
     m.add("swing", "sledge", free.axes, JointKind::revolute, Vec3::UnitX(), {2, {0, 0, 1.0}}, 50);
     m.map.parts = {{"sledge", Tree::base(), {}, {}}};
     const System system(m.tree, m.forces);
-    const EnergyShares energy_shares(at_rest(system), system.model, m.map, system.model.coordinates().free(),
+    const EnergyShares energy_shares(linearised(system), system.model, m.map, system.model.coordinates().free(),
                                      plain(system));
     REQUIRE(energy_shares.components().size() == 1);
     CHECK(energy_shares.name(0, RotorPattern::none) == "sledge");

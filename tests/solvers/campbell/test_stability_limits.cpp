@@ -227,7 +227,7 @@ TEST_CASE("stability limits: damping that turns with a shaft makes it whirl from
     }
     const Model model(tree);
     const int y = model.index(pair[0]), z = model.index(pair[1]), turns = model.index(spin.body);
-    forces.add_user({.name = "bath", .force = [=](const ForceInput& in, VectorOut Q) {
+    forces.add_user({.name = "bath", .force = [=](const StateView& in, VectorOut Q) {
                          Q(y) -= outside * (in.qd(y) - in.qd(turns) * in.q(z));
                          Q(z) -= outside * (in.qd(z) + in.qd(turns) * in.q(y));
                      }});
@@ -312,7 +312,7 @@ TEST_CASE("stability limits: a steady state is sought from that of the neighbour
         add_joint(tree, {.name = "needle", .inertia = {1, {1, 0, 0}, Mat3::Zero()}});
         ForceSet forces;
         forces.add_user(
-            {.name = "magnet", .force = [p](const ForceInput& in, VectorOut Q) { Q(0) -= std::sin(in.q(0) - p); }});
+            {.name = "magnet", .force = [p](const StateView& in, VectorOut Q) { Q(0) -= std::sin(in.q(0) - p); }});
         return System(tree, forces);
     }};
     needle.map.machine = "needle";

@@ -264,7 +264,7 @@ TEST_CASE(
     const Campbell d = diagram_of(rotor, {Omega}, {.spin = RotorSpin::prescribed, .floquet = {.harmonics = 16}});
     CHECK(d.method_reason == "blade 3 of 4 is missing");
     const CampbellPoint& point = d.points[0];
-    const OperatingPoint start = point.periodic->at(0);
+    const DynamicState start = point.periodic->at(0);
     IntegrationOptions integration;
     integration.method = Method::erk;
     integration.tolerances = {1e-11, 1e-12, 1e-12, 1e-12, 1e-12};

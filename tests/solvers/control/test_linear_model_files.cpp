@@ -42,7 +42,7 @@ struct Example {
                 {text("blade ", b, " acceleration"), "rad s-2", "flap", {}, {}, text("FlapAcc", b)});
         }
         group.channels.push_back({"power", "W", "a fixed-frame signal"});
-        group.sample = [map = rotor.map](const ChannelInput& in, double* values) {
+        group.sample = [map = rotor.map](const DynamicView& in, double* values) {
             for (const std::vector<int>& blade : map.blades) *values++ = in.qdd(blade[0]);
             *values = in.qd(0) * 5 + in.qd(map.spin);
         };

@@ -61,7 +61,8 @@ TEST_CASE("multi-blade model: why two blades are refused: their mean over the az
     for (const std::size_t blades : {2U, 3U}) {
         const SmallRotor rotor = rotor_of(blades);
         const double Omega = 4;
-        const Floquet exact = floquet(linearised(rotor.system, at_rest(rotor.system, rotor.map.spin, Omega)));
+        const Floquet exact =
+            floquet(linearised(rotor.system, turning_undeflected(rotor.system, rotor.map.spin, Omega)));
         const LinearModel model = model_of(rotor, Omega);
         const std::vector<Complex> expected = exponents(exact);
         double largest = 0;

@@ -49,11 +49,11 @@ struct SlidingMass {
                           {"rail force", "N", "along the arm on the mass"},
                           {"mass acceleration", "m s-2", "along the arm"},
                           {"arm angle", "rad", "wrapped", {}, {}, "ArmAng"}};
-        group.sample = [arm = arm, body = slider](const ChannelInput& in, double* values) {
+        group.sample = [arm = arm, body = slider](const DynamicView& in, double* values) {
             const Vec3 along = in.kinematics.rotation(arm) * Vec3::UnitX();
             values[0] = in.actuator(arm);
-            values[1] = along.dot(entry(in.loads.joint, body).force);
-            values[2] = along.dot(entry(in.loads.motion, body).acceleration);
+            values[1] = along.dot(entry(in.loads().joint, body).force);
+            values[2] = along.dot(entry(in.loads().motion, body).acceleration);
             values[3] = in.q(arm) - 2 * pi * std::floor(in.q(arm) / (2 * pi));
         };
         return {group};
@@ -68,8 +68,8 @@ RotorMap no_rotor() {
 
 struct Instant {
     double a, w, e, r, v, s;  // angle, rate, acceleration; slide, rate, acceleration
-    OperatingPoint of(const SlidingMass& x) const {
-        OperatingPoint at{Vector::Zero(2), Vector::Zero(2), Vector::Zero(2), 0};
+    DynamicState of(const SlidingMass& x) const {
+        DynamicState at = at_rest(2);
         at.q(x.arm) = a, at.qd(x.arm) = w, at.qdd(x.arm) = e;
         at.q(x.slider) = r, at.qd(x.slider) = v, at.qdd(x.slider) = s;
         return at;
@@ -99,7 +99,7 @@ SmallRotor heavy_rotor() {
 ChannelGroup positions(const Model& model) {
     ChannelGroup group;
     for (const CoordinateInfo& info : model.coordinates()) group.channels.push_back({info.name, info.unit, "position"});
-    group.sample = [](const ChannelInput& in, double* values) {
+    group.sample = [](const DynamicView& in, double* values) {
         for (double q : in.q) *values++ = q;
     };
     return group;
@@ -149,7 +149,7 @@ TEST_CASE("state space: an accelerated coordinate with states of its own gives t
           "[property]") {
     const SlidingMass x(CoordinateRole::driven);
     const System system(x.tree, x.forces);
-    const OperatingPoint at = moving(0.7, 1.9, 0.4, 0.3, -0.2).of(x);
+    const DynamicState at = moving(0.7, 1.9, 0.4, 0.3, -0.2).of(x);
     const auto model_of = [&](const LinearInput& input) {
         return at_sample(state_space(system, no_rotor(), at, {input}, x.channels()), 0);
     };
@@ -166,7 +166,7 @@ TEST_CASE("state space: an accelerated coordinate with states of its own gives t
 TEST_CASE("state space: D of a motion is in proportion to its factor, however large or small that is", "[property]") {
     const SlidingMass x(CoordinateRole::driven);
     const System system(x.tree, x.forces);
-    const OperatingPoint at = moving(0.7, 1.9, 0.4, 0.3, -0.2).of(x);
+    const DynamicState at = moving(0.7, 1.9, 0.4, 0.3, -0.2).of(x);
     const auto D = [&](double factor) {
         return state_space(system, no_rotor(), at, {LinearInput::motion("arm", {{x.arm, factor}})}, x.channels())
             .samples[0]
@@ -232,7 +232,7 @@ TEST_CASE(
     inputs.push_back(LinearInput::moment("nacelle moment", rotor.map.hub, Vec3::UnitX(), WrenchAxes::base));
     ChannelGroup blades;
     for (int b = 1; b <= 3; ++b) blades.channels.push_back({text("blade ", b, " flap angle"), "rad", "flap angle"});
-    blades.sample = [map = rotor.map](const ChannelInput& in, double* values) {
+    blades.sample = [map = rotor.map](const DynamicView& in, double* values) {
         for (const std::vector<int>& blade : map.blades) *values++ = in.q(blade[0]);
     };
     const LinearModel model = state_space(rotor.system, rotor.map, rotor.spinning(Omega), inputs, {blades}, options);
@@ -273,7 +273,7 @@ TEST_CASE("state space: bad input is refused with what is allowed", "[property]"
     const SlidingMass x;
     const System system(x.tree, x.forces);
     const RotorMap map = no_rotor();
-    const OperatingPoint at = moving(0, 0, 0, 0, 0).of(x);
+    const DynamicState at = moving(0, 0, 0, 0, 0).of(x);
     const auto refused = [&](const std::vector<LinearInput>& inputs, std::initializer_list<std::string> parts,
                              StateSpaceOptions options = {}) {
         check_refused([&] { (void)state_space(system, map, at, inputs, x.channels(), options); }, parts);
@@ -297,7 +297,7 @@ TEST_CASE("state space: bad input is refused with what is allowed", "[property]"
     StateSpaceOptions wrong;
     wrong.outputs = {"nothing"};
     refused({}, {"'nothing'", "'rail force'"}, wrong);
-    check_refused([&] { (void)state_space(system, map, OperatingPoint{}, {}, {}); }, {"operating point = 0"});
+    check_refused([&] { (void)state_space(system, map, DynamicState{}, {}, {}); }, {"operating point = 0"});
     check_refused([&] { (void)state_space(system, map, PeriodicSteadyState{}, {}, {}); }, {"not converged"});
     const LinearModel model = state_space(system, map, at, {}, x.channels());
     check_refused([&] { (void)fourier_coefficients(model, 1); }, {"harmonics = 1", "at most 0"});

@@ -41,7 +41,7 @@ ChannelGroup own_channels() {
                         {.name = "mass", .units = "m s-2", .long_name = "acceleration of the mass"},
                         {.name = "drive", .units = "N m", .long_name = "of the crank"}},
                        {}};
-    group.sample = [](const ChannelInput& in, double* values) {
+    group.sample = [](const DynamicView& in, double* values) {
         values[0] = in.q(2);
         values[1] = in.qdd(2) + in.qdd(3);
         values[2] = in.actuator(0);
@@ -60,7 +60,7 @@ TEST_CASE("linear model with loops: a crank at rest moves what follows it", "[an
     const double theta = 0.8;
     Vector q = Vector::Zero(4);
     q.head(3) = SliderCrank::position(theta);
-    const OperatingPoint at{q, Vector::Zero(4), Vector::Zero(4)};
+    const DynamicState at = at_rest(q);
     const LinearModel model = state_space(system, the_machine, at, {LinearInput::motion("crank", {{0, 1}})},
                                           {own_channels(), reaction_channels(system)});
     REQUIRE(model.coordinates == std::vector<int>{3});

@@ -56,12 +56,13 @@ TEST_CASE("linear model with states: transfer from an input of the system, close
     group.channels = {{.name = "position", .units = "m", .long_name = "of the mass"},
                       {.name = "push", .units = "N", .long_name = "of the actuator"},
                       {.name = "square", .units = "N2 s-1", .long_name = "force times its rate"}};
-    group.sample = [](const ChannelInput& in, double* values) {
+    group.sample = [](const DynamicView& in, double* values) {
         values[0] = in.q(0);
         values[1] = in.s(0);
         values[2] = in.s(0) * in.s_rate(0);
     };
-    const OperatingPoint at{Vector::Constant(1, 0.1), Vector::Zero(1), Vector::Zero(1), 0, Vector::Constant(1, 5)};
+    const DynamicState at{{.q = Vector::Constant(1, 0.1), .qd = Vector::Zero(1), .s = Vector::Constant(1, 5)},
+                          Vector::Zero(1)};
     const LinearModel model = state_space(system, none, at, {LinearInput::system_input("demand")}, {group});
     REQUIRE(model.states.size() == 3);
     CHECK(model.states[2].name == "force");

@@ -238,14 +238,14 @@ TEST_CASE("load factor: wrenches, user forces and, if wanted, gravity are multip
     set.add_wrench({"dead", b.axes, {{1, 2, 3}, Vec3::Zero()}, WrenchAxes::base});
     set.add_wrench({"follower", b.axes, {{-1, 0, 2}, {0.3, 0.1, 0}}, WrenchAxes::frame});
     set.set_gravity({0, 1, -9});
-    const auto force = [](const ForceInput& at, VectorOut Q) {
+    const auto force = [](const StateView& at, VectorOut Q) {
         Q(0) += std::sin(at.q(1)) - at.qd(0);
         Q(1) += at.q(0) * at.q(1);
     };
-    set.add_user({"differenced", force, {}, [](const ForceInput& at) { return at.q(0); }});
+    set.add_user({"differenced", force, {}, [](const StateView& at) { return at.q(0); }});
     set.add_user({"exact",
                   force,
-                  [](const ForceInput& at, MatrixOut by_q, MatrixOut by_qd) {
+                  [](const StateView& at, MatrixOut by_q, MatrixOut by_qd) {
                       by_q(0, 1) += std::cos(at.q(1));
                       by_q(1, 0) += at.q(1);
                       by_q(1, 1) += at.q(0);
@@ -263,9 +263,9 @@ TEST_CASE("load factor: wrenches, user forces and, if wanted, gravity are multip
     };
     const auto evaluate = [&](const Forces& forces) {
         Result r;
-        forces.generalised_forces(kin, 0, q, qd, r.Q);
-        forces.derivatives(kin, 0, q, qd, r.by);
-        r.energy = forces.potential_energy(kin, 0, q, qd);
+        forces.generalised_forces({{.q = q, .qd = qd}, kin}, r.Q);
+        forces.derivatives({{.q = q, .qd = qd}, kin}, r.by);
+        r.energy = forces.potential_energy({{.q = q, .qd = qd}, kin});
         return r;
     };
     for (const bool gravity : {true, false}) {

@@ -124,14 +124,14 @@ TEST_CASE("loop equilibria: natural modes of a closed machine are those of the o
     CHECK(modes(reduced.system).at(0).eigenvalue.imag() == Approx(std::sqrt((ky + 5 / length) / m)).epsilon(1e-9));
     check_refused(
         [&] {
-            OperatingPoint moving = state.at;
+            DynamicState moving = state.at;
             moving.qd = Vector{{0, 1.0}};
             (void)linearise(system, moving);
         },
         {"'y'", "rate", "motion"});
     check_refused(
         [&] {
-            OperatingPoint open = state.at;
+            DynamicState open = state.at;
             open.q(0) = 2;
             (void)linearise(system, open);
         },
@@ -173,7 +173,7 @@ TEST_CASE("loop equilibria: two wheels held by a spring and tied by a coupling o
     CHECK(state.at.q(1) == Approx(12.0 / 50));
     check_refused(
         [&] {
-            OperatingPoint open = state.at;
+            DynamicState open = state.at;
             open.q(0) = 1;
             (void)linearise(system, open);
         },

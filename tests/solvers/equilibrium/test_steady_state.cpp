@@ -132,7 +132,7 @@ TEST_CASE("steady state: in a coned rotating beam every joint carries the centri
     Workspace workspace(model);
     const Kinematics kin = kinematics(model, state.at.q, workspace);
     Vector Q(model.size());
-    system.forces.generalised_forces(kin, 0, state.at.q, state.at.qd, Q);
+    system.forces.generalised_forces({state.at, kin}, Q);
     const Vec3 omega(0, 0, Omega);
     double largest = 0;
     for (int a = 1; a < model.size(); ++a) {
@@ -275,11 +275,11 @@ TEST_CASE("steady state: forces that are not a number are no equilibrium, and no
     forces.add_spring("spring", arm, 2.0);
     forces.add_user({.name = "user",
                      .force =
-                         [&](const ForceInput&, VectorOut Q) {
+                         [&](const StateView&, VectorOut Q) {
                              if (extra > 5) throw std::runtime_error("from a user force");
                              Q(0) += extra;
                          },
-                     .jacobian = [](const ForceInput&, MatrixOut, MatrixOut) {}});
+                     .jacobian = [](const StateView&, MatrixOut, MatrixOut) {}});
     const System system(tree, forces);
     SteadySolver solver(system, -1);
     SteadyState state;

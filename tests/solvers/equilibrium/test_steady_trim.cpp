@@ -51,11 +51,11 @@ struct SpeedLoop {
 // Torque that a drive would have to add on the spin, N m.
 double missing_torque(const SmallRotor& rotor, const SteadyState& state) {
     Workspace workspace(rotor.system.model);
-    const OperatingPoint& at = state.at;
+    const DynamicState& at = state.at;
     const Kinematics kin = kinematics(rotor.system.model, at.q, workspace);
     Vector tau(at.q.size()), Q(at.q.size()), rates(at.s.size());
     inverse_dynamics<double>(kin, at.qd, at.qdd, tau);
-    rotor.system.forces.evaluate({0, at.q, at.qd, kin, at.s, at.u}, Q, rates);
+    rotor.system.forces.generalised_forces({at, kin}, Q, rates);
     return tau(rotor.map.spin) - Q(rotor.map.spin);
 }
 

@@ -132,7 +132,7 @@ TEST_CASE("history: resumed with a one-step method it is the uninterrupted run b
         options.tolerances = {1e-7, 1e-9, 1e-9, 1e-8, 1e-8};
         // The swing that comes back is pushed: the method starts anew there, before or after the interruption.
         options.events = {{.name = "back",
-                           .function = [](const ForceInput& at) { return at.qd(0) - 0.2; },
+                           .function = [](const StateView& at) { return at.qd(0) - 0.2; },
                            .action = [](Integrator&) { return AfterEvent::restart; }}};
         History whole;
         Integrator uninterrupted(system, {}, 0, q, zero, options);

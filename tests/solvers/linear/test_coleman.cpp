@@ -69,7 +69,7 @@ SecondOrderSystem shaft_in_fixed_frame(double sense, double k, double d, double 
     forces.add_spring("y", y.body, k, d);
     forces.add_spring("z", z.body, k, d);
     const System system(tree, forces);
-    OperatingPoint at{psi * Vector::Unit(3, 0), Omega * Vector::Unit(3, 0), Vector::Zero(3), 0.0};
+    DynamicState at{{.q = psi * Vector::Unit(3, 0), .qd = Omega * Vector::Unit(3, 0)}, Vector::Zero(3)};
     RotorMap map;
     map.blades = {{}, {}, {}};  // three blades without coordinates of their own
     map.rotating_pairs = {{1, 2, sense}};

@@ -25,14 +25,14 @@ struct Sample {
           forces(random_forces(random, tree)),
           system(tree, forces),
           n(system.model.size()) {
-        at = {random_state(random, n), random_state(random, n, 2), random_state(random, n, 3), 0.0};
+        at = {{.q = random_state(random, n), .qd = random_state(random, n, 2)}, random_state(random, n, 3)};
     }
     Random random;
     Tree tree;
     ForceSet forces;
     System system;
     int n;
-    OperatingPoint at;
+    DynamicState at;
 };
 
 enum class By { q, qd, qdd };
@@ -150,7 +150,7 @@ TEST_CASE("linearise: a selection of coordinates marks a spin that no force depe
         if (spin_spring > 0) forces.add_spring("spin", spin.body, spin_spring);
         forces.set_gravity(gravity);
         const System system(tree, forces);
-        OperatingPoint at{Vector::Zero(2), Vector::Zero(2), Vector::Zero(2), 0.0};
+        DynamicState at = at_rest(2);
         at.q << azimuth, 0.1;
         at.qd << 3, 0;
         return restrict_to(linearise(system, at), {1, 0}, 0);

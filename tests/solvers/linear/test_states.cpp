@@ -25,13 +25,14 @@ Link rotor(Tree& tree, double inertia, const std::string& name = "rotor", FrameI
     return add_joint(tree, {.name = name, .inboard = inboard, .axis = Vec3::UnitZ(), .inertia = {1, Vec3::Zero(), J}});
 }
 
-OperatingPoint at_rest(const System& system) {
-    const Vector zero = Vector::Zero(system.model.size());
-    return {zero, zero, zero, 0, system.forces.states().initial()};
+DynamicState start_of(const System& system) {
+    DynamicState start = at_rest(system.model.size());
+    start.s = system.forces.states().initial();
+    return start;
 }
 
 std::vector<Mode> modes_at_rest(const System& system) {
-    return modes(restrict_to(linearise(system, at_rest(system)), system.model.coordinates().free()));
+    return modes(restrict_to(linearise(system, start_of(system)), system.model.coordinates().free()));
 }
 
 // Roots of a polynomial with real coefficients, highest first, by its companion matrix; those with Im >= 0.
@@ -166,7 +167,7 @@ TEST_CASE("states, linear: a pendulum with an actuator of first order", "[analyt
     forces.add_states(actuator);
     const System system(tree, forces);
     check_eigenvalues(modes_at_rest(system), roots({J * tau, J, k * tau, k + gain}));
-    const SecondOrderSystem linear = restrict_to(linearise(system, at_rest(system)), {0});
+    const SecondOrderSystem linear = restrict_to(linearise(system, start_of(system)), {0});
     CHECK(static_stiffness(linear)(0, 0) == Approx(k + gain).epsilon(1e-14));
 }
 
@@ -194,7 +195,7 @@ TEST_CASE("states, linear: a PI controller of a rotor's speed; the integral find
     forces.add_states(controller);
     const System system(tree, forces);
     check_eigenvalues(modes_at_rest(system), roots({J, d + p, i}));
-    CHECK_THROWS_AS(static_stiffness(restrict_to(linearise(system, at_rest(system)), {0})), NumericalError);
+    CHECK_THROWS_AS(static_stiffness(restrict_to(linearise(system, start_of(system)), {0})), NumericalError);
 }
 
 TEST_CASE("states, linear: cascades of lags beside a structure keep the structure's modes", "[property]") {
@@ -270,10 +271,10 @@ TEST_CASE("states, steady: a state that nothing determines is told, and bad star
     const Vector zero = Vector::Zero(1);
     check_refused(
         [&] {
-            (void)linearise(system, {zero, zero, zero, 0, Vector::Zero(3)});
+            (void)linearise(system, {{.q = zero, .qd = zero, .s = Vector::Zero(3)}, zero});
         },
         {"linearisation", "states"});
-    CHECK(linearise(system, {zero, zero, zero, 0}).at.s == Vector::Zero(1));
+    CHECK(linearise(system, at_rest(zero)).at.s == Vector::Zero(1));
 }
 
 TEST_CASE("states, linear: an angle that grows for ever is left alone in the steady state", "[analytic]") {

@@ -12,7 +12,7 @@
 namespace cardan::testing {
 
 /// The undeformed machine as a periodic state.
-inline solvers::PeriodicSteadyState at_rest(const System& system, int spin, double Omega) {
+inline solvers::PeriodicSteadyState turning_undeflected(const System& system, int spin, double Omega) {
     solvers::PeriodicSteadyState state;
     state.converged = true;
     state.rotor_speed = Omega;

@@ -13,7 +13,8 @@ using namespace cardan::testing;
 
 TEST_CASE("Floquet: backward rotation renumbers the blades the other way round", "[property]") {
     const SmallRotor rotor = small_rotor({.damping = 2, .elastic_support = true});
-    const PeriodicSystem system = linearised(rotor.system, at_rest(rotor.system, rotor.map.spin, -4), rotor.unknowns());
+    const PeriodicSystem system =
+        linearised(rotor.system, turning_undeflected(rotor.system, rotor.map.spin, -4), rotor.unknowns());
     CHECK(asymmetry(system, blade_symmetry(rotor.map, rotor.unknowns(), -4)) < 1e-12);
     CHECK(asymmetry(system, blade_symmetry(rotor.map, rotor.unknowns(), 4)) > 1e-3);
     const Floquet whole = floquet(system),
@@ -50,7 +51,7 @@ TEST_CASE("Floquet: bending of a rotating shaft is turned with the blades", "[cr
     const System plain(tree, forces);
     const Model& model = plain.model;
     const int i_spin = model.index("spin"), i_y = model.index("y"), i_z = model.index("z");
-    fixed.force = [=](const ForceInput& at, VectorOut Q) {
+    fixed.force = [=](const StateView& at, VectorOut Q) {
         const double c = std::cos(at.q(i_spin)), s = std::sin(at.q(i_spin)), u = c * at.q(i_y) - s * at.q(i_z);
         Q(i_y) -= 3000 * c * u;
         Q(i_z) += 3000 * s * u;
@@ -63,7 +64,7 @@ TEST_CASE("Floquet: bending of a rotating shaft is turned with the blades", "[cr
     std::vector<int> unknowns = model.coordinates().free();
     unknowns.erase(std::find(unknowns.begin(), unknowns.end(), i_spin));
     const double Omega = 5;
-    const PeriodicSystem periodic = linearised(system, at_rest(system, i_spin, Omega), unknowns);
+    const PeriodicSystem periodic = linearised(system, turning_undeflected(system, i_spin, Omega), unknowns);
     const BladeSymmetry blades = blade_symmetry(map, unknowns, Omega);
     CHECK(asymmetry(periodic, blades) < 1e-8);  // the user force is differenced
     const Floquet whole = floquet(periodic), third = floquet(periodic, {.symmetry = blades});
@@ -76,7 +77,7 @@ TEST_CASE("periodic system: the mean over one of several identical parts gives t
     const double Omega = 4;
     const SmallRotor rotor = small_rotor({.damping = 2, .elastic_support = true});
     const PeriodicSystem blades =
-        linearised(rotor.system, at_rest(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
+        linearised(rotor.system, turning_undeflected(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
     const PeriodicSystem fixed = in_multi_blade_rows(blades, ColemanTransform(rotor.map, rotor.unknowns()), Omega);
     const Eigen::Index n = blades.rows();
     const BladeSymmetry next = blade_symmetry(rotor.map, rotor.unknowns(), Omega), same{3, Matrix::Identity(n, n)};
@@ -96,7 +97,7 @@ TEST_CASE("Floquet: the symmetry of a system of first order acts on its states",
     const double Omega = 4;
     const SmallRotor rotor = small_rotor({.damping = 2, .elastic_support = true});
     const PeriodicSystem second =
-        linearised(rotor.system, at_rest(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
+        linearised(rotor.system, turning_undeflected(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
     const BladeSymmetry blades = blade_symmetry(rotor.map, rotor.unknowns(), Omega);
     const Eigen::Index n = second.rows();
     const PeriodicSystem first = PeriodicSystem::first_order(
@@ -113,7 +114,7 @@ TEST_CASE("Floquet: blades that differ, or are not all there, are refused as a s
     const double Omega = 4;
     const SmallRotor unequal = small_rotor({.stiffness = {2000, 2000, 2100}, .elastic_support = true});
     const PeriodicSystem system =
-        linearised(unequal.system, at_rest(unequal.system, unequal.map.spin, Omega), unequal.unknowns());
+        linearised(unequal.system, turning_undeflected(unequal.system, unequal.map.spin, Omega), unequal.unknowns());
     check_refused([&] { (void)floquet(system, {.symmetry = blade_symmetry(unequal.map, unequal.unknowns(), Omega)}); },
                   {"difference of the 3 parts", "whole period"});
     RotorMap map = unequal.map;
@@ -130,7 +131,7 @@ TEST_CASE("Floquet: blades that differ, or are not all there, are refused as a s
     check_refused([&] { (void)blade_symmetry(map, unequal.unknowns(), Omega, {99}); }, {"odd coordinate", "99"});
     map.rotating_pairs = {{map.blades[0][0], 99, 1.0}};
     check_refused([&] { (void)blade_symmetry(map, unequal.unknowns(), Omega); }, {"rotating pair"});
-    PeriodicSteadyState state = at_rest(unequal.system, 2, Omega);
+    PeriodicSteadyState state = turning_undeflected(unequal.system, 2, Omega);
     check_refused([&] { (void)linearised(unequal.system, state, {77}); }, {"index of a coordinate", "77"});
     state.coefficients.conservativeResize(3, 1);
     check_refused([&] { (void)linearised(unequal.system, state); }, {"rows of the periodic steady state", "3"});

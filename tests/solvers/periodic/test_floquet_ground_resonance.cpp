@@ -116,7 +116,7 @@ TEST_CASE("Floquet: ground resonance of two blades on equal springs, by the equa
         const std::vector<Complex> expected = machine.rotating_axes(Omega);
         double growth = -1e9;
         for (const Complex lambda : expected) growth = std::max(growth, lambda.real());
-        const PeriodicSystem periodic = linearised(system, at_rest(system, rotor.spin, Omega), unknowns);
+        const PeriodicSystem periodic = linearised(system, turning_undeflected(system, rotor.spin, Omega), unknowns);
         const BladeSymmetry blades = blade_symmetry(rotor, unknowns, Omega);
         CHECK(asymmetry(periodic, blades) < 1e-12);
         for (const Floquet& result : {floquet(periodic), floquet(periodic, {.symmetry = blades})}) {
@@ -143,7 +143,7 @@ TEST_CASE(
     int unstable = 0;
     for (const double Omega : {4.0, 6.0, 11.0, 15.0}) {
         const std::vector<Complex> expected = exponents(machine.fixed_axes(Omega), 4, Omega, 8000);
-        const PeriodicSystem periodic = linearised(system, at_rest(system, rotor.spin, Omega), unknowns);
+        const PeriodicSystem periodic = linearised(system, turning_undeflected(system, rotor.spin, Omega), unknowns);
         const BladeSymmetry blades = blade_symmetry(rotor, unknowns, Omega);
         const Floquet whole = floquet(periodic), half = floquet(periodic, {.symmetry = blades}),
                       balanced = hill(periodic, {.harmonics = 12});

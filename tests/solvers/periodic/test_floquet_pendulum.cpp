@@ -104,7 +104,7 @@ TEST_CASE("Floquet: a pendulum whose support moves sideways: exponents about its
         REQUIRE(state.converged);
         CHECK(state.coefficients(pendulum.row, 0) == Approx(shaken.near).margin(0.02));
         CHECK(state.amplitude(1) > 0.05);
-        const OperatingPoint start = state.at(0);
+        const DynamicState start = state.at(0);
         const Vector end = after_a_period(start.q(pendulum.row), start.qd(pendulum.row), shaken.Omega, shaken.A);
         CHECK(std::abs(end(0) - start.q(pendulum.row)) < 1e-9);
         CHECK(std::abs(end(1) - start.qd(pendulum.row)) < 1e-8 * shaken.Omega);

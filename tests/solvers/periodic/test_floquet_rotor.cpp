@@ -34,7 +34,7 @@ TEST_CASE("Floquet: an isotropic three-bladed rotor has the modes of the multi-b
             expected.push_back(std::conj(mode.eigenvalue));
         }
         const PeriodicSystem system =
-            linearised(rotor.system, at_rest(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
+            linearised(rotor.system, turning_undeflected(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
         const BladeSymmetry blades = blade_symmetry(rotor.map, rotor.unknowns(), Omega);
         CHECK(asymmetry(system, blades) < 1e-12);
         const Floquet whole = floquet(system), third = floquet(system, {.symmetry = blades}),
@@ -87,7 +87,7 @@ TEST_CASE("Floquet: a rigid teetered rotor on a free yaw joint grows at once per
             K << 0, -(I(1) - I(2)) * Omega * Omega * s, 0, (I(1) - I(2)) * Omega * Omega;
         },
         2, Omega, 8000);
-    const PeriodicSystem periodic = linearised(system, at_rest(system, index, Omega), unknowns);
+    const PeriodicSystem periodic = linearised(system, turning_undeflected(system, index, Omega), unknowns);
     RotorMap rotor;
     rotor.machine = "teetered rotor";
     rotor.spin = index;
@@ -168,7 +168,7 @@ TEST_CASE("Floquet: the monodromy matrix about a periodic state is the derivativ
     const Matrix Phi = monodromy(periodic, 120);
 
     const auto n = std::ssize(unknowns);
-    const OperatingPoint start = state.at(0);
+    const DynamicState start = state.at(0);
     IntegrationOptions integration;
     integration.method = Method::erk;
     integration.tolerances = {1e-11, 1e-12, 1e-12, 1e-12, 1e-12};
@@ -203,7 +203,8 @@ TEST_CASE("Floquet: two blades: nacelle and sum of the blades in harmonics of on
     const SmallRotor rotor = small_rotor({.stiffness = {2000, 2000}, .damping = 2, .elastic_support = true});
     const std::vector<int> unknowns = rotor.unknowns();
     const double Omega = 4;
-    const Floquet result = floquet(linearised(rotor.system, at_rest(rotor.system, rotor.map.spin, Omega), unknowns));
+    const Floquet result =
+        floquet(linearised(rotor.system, turning_undeflected(rotor.system, rotor.map.spin, Omega), unknowns));
     const auto row = [&](int coordinate) {
         return std::find(unknowns.begin(), unknowns.end(), coordinate) - unknowns.begin();
     };

@@ -96,7 +96,7 @@ TEST_CASE("Floquet with states: an isotropic rotor has the modes of the multi-bl
         const SmallRotor rotor = rotor_with_lags(0.8, 3, Vec3::Zero(), unit);
         const std::vector<Complex> expected = with_conjugates(constant_modes(rotor, Omega));
         const PeriodicSystem system =
-            linearised(rotor.system, at_rest(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
+            linearised(rotor.system, turning_undeflected(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
         REQUIRE(system.states_beside() == 7);
         REQUIRE(std::ssize(expected) == system.states());
         const BladeSymmetry blades =
@@ -120,7 +120,7 @@ TEST_CASE("Floquet with states: shares of states", "[crosscheck]") {
         const SmallRotor rotor = rotor_with_lags(coupling);
         const StateTable& states = rotor.system.forces.states();
         const PeriodicSystem system = in_multi_blade_rows(
-            linearised(rotor.system, at_rest(rotor.system, rotor.map.spin, Omega), rotor.unknowns()),
+            linearised(rotor.system, turning_undeflected(rotor.system, rotor.map.spin, Omega), rotor.unknowns()),
             ColemanTransform(rotor.map, rotor.unknowns(), states), Omega);
         const std::vector<Mode> constant = constant_modes(rotor, Omega);
         const Floquet whole = floquet(system), balanced = hill(system, {.harmonics = 4});
@@ -207,12 +207,12 @@ TEST_CASE("Campbell diagram with states: two blades under gravity have the expon
 TEST_CASE("Floquet with states: bad input is refused", "[property]") {
     const double Omega = 1.7;
     const SmallRotor rotor = rotor_with_lags(0.8);
-    PeriodicSteadyState state = at_rest(rotor.system, rotor.map.spin, Omega);
+    PeriodicSteadyState state = turning_undeflected(rotor.system, rotor.map.spin, Omega);
     state.state_coefficients.resize(0, 0);
     check_refused([&] { static_cast<void>(linearised(rotor.system, state, rotor.unknowns())); },
                   {"linearised system", "states of the periodic steady state = 0", "those of the system, 7"});
     const PeriodicSystem system =
-        linearised(rotor.system, at_rest(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
+        linearised(rotor.system, turning_undeflected(rotor.system, rotor.map.spin, Omega), rotor.unknowns());
     const BladeSymmetry without_states = blade_symmetry(rotor.map, rotor.unknowns(), Omega);
     check_refused([&] { static_cast<void>(floquet(system, {.symmetry = without_states})); },
                   {"blade symmetry", "P of the states", "7 x 7"});

@@ -120,15 +120,15 @@ TEST_CASE("mean Jacobian: a mean that nothing holds stays where it started, with
                         .lag_damping = 30,
                         .elastic_support = true};
     spec.more = [](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
-        const auto angle = [](const ForceInput& at, int blade) { return 2 * (at.q(2) + 2 * pi * blade / 3); };
+        const auto angle = [](const StateView& at, int blade) { return 2 * (at.q(2) + 2 * pi * blade / 3); };
         forces.add_user({.name = "moved",
                          .force =
-                             [angle](const ForceInput& at, VectorOut Q) {
+                             [angle](const StateView& at, VectorOut Q) {
                                  Q(1) += 7000 * at.q(1);
                                  for (int k = 0; k < 3; ++k) Q(3 + 2 * k) += 1e-4 * std::cos(angle(at, k));
                              },
                          .jacobian =
-                             [angle](const ForceInput& at, MatrixOut dQ_dq, MatrixOut) {
+                             [angle](const StateView& at, MatrixOut dQ_dq, MatrixOut) {
                                  dQ_dq(1, 1) += 7000;
                                  for (int k = 0; k < 3; ++k) dQ_dq(3 + 2 * k, 2) -= 2e-4 * std::sin(angle(at, k));
                              }});

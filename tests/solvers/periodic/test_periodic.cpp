@@ -37,8 +37,8 @@ struct Slider {
 UserForce cubic(double k3, std::function<double(double)> load) {
     UserForce force;
     force.name = "cubic spring and load";
-    force.force = [=](const ForceInput& at, VectorOut Q) { Q(1) += load(at.time) - k3 * std::pow(at.q(1), 3); };
-    force.jacobian = [=](const ForceInput& at, MatrixOut dq, MatrixOut) { dq(1, 1) -= 3 * k3 * at.q(1) * at.q(1); };
+    force.force = [=](const StateView& at, VectorOut Q) { Q(1) += load(at.time) - k3 * std::pow(at.q(1), 3); };
+    force.jacobian = [=](const StateView& at, MatrixOut dq, MatrixOut) { dq(1, 1) -= 3 * k3 * at.q(1) * at.q(1); };
     return force;
 }
 
@@ -163,12 +163,12 @@ TEST_CASE("periodic state: harmonic balance, shooting and integration in time ag
     integration.method = Method::erk;
     integration.tolerances = {1e-11, 1e-12, 1e-12, 1e-12, 1e-12};
     integration.integrate_work = false;
-    const OperatingPoint start = balanced.at(0);
+    const DynamicState start = balanced.at(0);
     Integrator integrator(rotor.system, {{rotor.map.spin, Motion::constant_rate(0, Omega)}}, 0, start.q, start.qd,
                           integration);
     for (const double psi : {1.0, 4.0, 2 * pi}) {
         REQUIRE(integrator.advance(psi / Omega).reached());
-        const OperatingPoint expected = balanced.at(psi);
+        const DynamicState expected = balanced.at(psi);
         CHECK((integrator.state().q - expected.q).cwiseAbs().maxCoeff() < 1e-9);
         CHECK((integrator.state().qd - expected.qd).cwiseAbs().maxCoeff() < 1e-8);
         CHECK((integrator.state().qdd - expected.qdd).cwiseAbs().maxCoeff() < 1e-6);
@@ -325,7 +325,7 @@ TEST_CASE("periodic state: a sweep follows the upper branch of a hardening reson
     // The load is fixed in time, not in azimuth, so the wheel must turn at its frequency: F cos(psi) by the wheel.
     UserForce force = cubic(0.1, [](double) { return 0.0; });
     const auto spring = force.force;
-    force.force = [spring](const ForceInput& at, VectorOut Q) {
+    force.force = [spring](const StateView& at, VectorOut Q) {
         spring(at, Q);
         Q(1) += 0.4 * std::cos(at.q(0));
     };

@@ -135,7 +135,7 @@ TEST_CASE("periodic loops: place and pin forces of a slider-crank in steady rota
     for (const Row& row : {Row{0.5, -300.893020, 182.990028}, Row{1, -88.110668, 160.927118},
                            Row{2, 193.218209, -105.151101}, Row{4, 176.877436, 78.898644}}) {
         CAPTURE(row.theta);
-        const OperatingPoint at = state.at(row.theta);
+        const DynamicState at = state.at(row.theta);
         CHECK((at.q - SliderCrank::position(row.theta)).cwiseAbs().maxCoeff() < 1e-9);
         const LoopLoad load =
             machine.system.loops.reaction(kinematics(machine.system.model, at.q, workspace), 0, at.lambda);

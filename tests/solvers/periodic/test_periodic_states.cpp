@@ -27,7 +27,7 @@ struct MaxwellOscillator {
             tree, {.name = "mass", .kind = JointKind::prismatic, .axis = Vec3::UnitX(), .inertia = {m, Vec3::Zero()}});
         forces.add_spring("spring", mass.body, k, c);
         UserForce shaking{.name = "load"};
-        shaking.force = [F = load](const ForceInput& at, VectorOut Q) { Q(1) += F * (std::cos(at.q(0)) + 2); };
+        shaking.force = [F = load](const StateView& at, VectorOut Q) { Q(1) += F * (std::cos(at.q(0)) + 2); };
         forces.add_user(shaking);
         StateElement maxwell{.name = "Maxwell element",
                              .states = {{.name = "force", .unit = "N", .scale = 10 / unit}},
@@ -144,7 +144,7 @@ TEST_CASE("periodic state: integration in time from it comes back after a revolu
     options.rotor = &rotor.map;
     const PeriodicSteadyState state = harmonic_balance(rotor.system, rotor.map.spin, options);
     REQUIRE(state.converged);
-    const OperatingPoint begin = state.at(0), end = state.at(2 * pi);
+    const DynamicState begin = state.at(0), end = state.at(2 * pi);
     IntegrationOptions integration;
     integration.tolerances = {1e-9, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10};
     integration.states = begin.s;

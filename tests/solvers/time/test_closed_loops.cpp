@@ -233,7 +233,7 @@ TEST_CASE("closed loops: events, checkpoints and outputs", "[analytic]") {
     const Vector start = machine.position(machine.start);
     const oracles::SwingingPendulum pendulum(std::sqrt(loop_gravity / machine.length), machine.start);
     IntegrationOptions options = with(Method::dirk, 1e-10, 1e-11);
-    options.events.push_back({.name = "lowest", .function = [](const ForceInput& at) { return at.q(0); }});
+    options.events.push_back({.name = "lowest", .function = [](const StateView& at) { return at.q(0); }});
     Integrator run(system, {}, 0, start, Vector::Zero(2), options);
     const Advance end = run.advance(10);
     CHECK(end.event == "lowest");

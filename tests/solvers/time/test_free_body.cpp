@@ -39,9 +39,9 @@ FreeMotion start() {
     return {{attitude(0), Vec3(1, 2, 3)}, {4, -2, 5}, angular_velocity(0)};
 }
 
-struct State {
+struct FreeState {
     Vector q, qd;
-    State(const Model& model, const FreeMotion& motion) : q(Vector::Zero(model.size())), qd(q) {
+    FreeState(const Model& model, const FreeMotion& motion) : q(Vector::Zero(model.size())), qd(q) {
         set_free_motion(model.free_bodies()[0], motion, q, qd);
     }
 };
@@ -61,7 +61,7 @@ TEST_CASE("free body: pose and velocities go in and come out, in singular attitu
             {Eigen::AngleAxisd(angle, angle > 0 ? Vec3(turn / angle) : Vec3::UnitX()).toRotationMatrix(), {1, -2, 3}},
             {0.4, 0.5, -0.6},
             {2, -1, 0.3}};
-        const State state(model, motion);
+        const FreeState state(model, motion);
         const FreeMotion back = free_motion(model.free_body("body"), state.q, state.qd);
         CHECK((back.pose.R - motion.pose.R).norm() < 1e-14);
         CHECK((back.w - motion.w).norm() < 1e-14);
@@ -85,7 +85,7 @@ TEST_CASE("free body: tumbles and flies with every method, through all attitudes
         double tolerance, error;
     };
     const System system = thrown(fall);
-    const State begin(system.model, start());
+    const FreeState begin(system.model, start());
     for (const Accuracy& a :
          {Accuracy{Method::bdf, 1e-10, 5e-7}, Accuracy{Method::adams, 1e-10, 1e-7}, Accuracy{Method::dirk, 1e-10, 5e-9},
           Accuracy{Method::erk, 1e-10, 5e-9}, Accuracy{Method::generalised_alpha, 1e-8, 3e-4}}) {
@@ -107,7 +107,7 @@ TEST_CASE("free body: tumbles and flies with every method, through all attitudes
 
 TEST_CASE("free body: continues bit for bit from a checkpoint behind a change of its coordinates", "[property]") {
     const System system = thrown(fall);
-    const State begin(system.model, start());
+    const FreeState begin(system.model, start());
     const IntegrationOptions options = equal_tolerances(Method::dirk, 1e-8);
     Integrator whole(system, {}, 0, begin.q, begin.qd, options);
     REQUIRE(whole.advance(3 * spinner.period()).reached());
@@ -122,7 +122,7 @@ TEST_CASE("free body: continues bit for bit from a checkpoint behind a change of
 
 TEST_CASE("free body: records how it lies, not its coordinates", "[property]") {
     const System system = thrown(0);
-    const State begin(system.model, start());
+    const FreeState begin(system.model, start());
     Integrator run(system, {}, 0, begin.q, begin.qd, equal_tolerances(Method::dirk, 1e-9));
     Recorder recorder(run, {}, {.rates = false, .energies = false, .statistics = false});
     std::string names;
@@ -174,7 +174,7 @@ TEST_CASE("free body: bad input is refused", "[bad-input]") {
     check_refused([&] { (void)system.model.free_body("ball"); }, {"'ball'"});
     FreeMotion motion;
     motion.pose.R *= 2;
-    check_refused([&] { (void)State(system.model, motion); }, {"'body'", "pose"});
+    check_refused([&] { (void)FreeState(system.model, motion); }, {"'body'", "pose"});
 }
 
 TEST_CASE("time: a state that jumps, as in an impact", "[analytic]") {
@@ -189,7 +189,7 @@ TEST_CASE("time: a state that jumps, as in an impact", "[analytic]") {
     int bounces = 0;
     double top_of_first = 0;
     options.events = {{.name = "floor",
-                       .function = [](const ForceInput& at) { return at.q(0); },
+                       .function = [](const StateView& at) { return at.q(0); },
                        .direction = -1,
                        .action =
                            [&](Integrator& run) {
@@ -198,7 +198,7 @@ TEST_CASE("time: a state that jumps, as in an impact", "[analytic]") {
                                return AfterEvent::restart;
                            }},
                       {.name = "top",
-                       .function = [](const ForceInput& at) { return at.qd(0); },
+                       .function = [](const StateView& at) { return at.qd(0); },
                        .direction = -1,
                        .action =
                            [&](Integrator& run) {

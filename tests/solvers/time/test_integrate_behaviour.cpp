@@ -14,7 +14,7 @@ TEST_CASE("integrate: events are found where they happen, in their direction", "
     const System system = pendulum();
     const oracles::SwingingPendulum oracle(pendulum_omega, 1.2);
     const double quarter = oracle.period() / 4;
-    const auto angle = [](const ForceInput& at) { return at.q(0); };
+    const auto angle = [](const StateView& at) { return at.q(0); };
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         IntegrationOptions options = with(method);
@@ -45,7 +45,7 @@ TEST_CASE("integrate: of events at the same time each acts, in the order of the 
     const System system = pendulum();
     std::string seen;
     const auto event = [&](const char* name, int direction) {
-        return Event{name, [](const ForceInput& at) { return at.q(0); }, direction,
+        return Event{name, [](const StateView& at) { return at.q(0); }, direction,
                      [&seen, name](Integrator&) {
                          seen += name;
                          return AfterEvent::restart;
@@ -62,7 +62,7 @@ TEST_CASE("integrate: an event may change a motion, and the cart brakes", "[solv
     const System system = Shaker{.c = 3}.system();
     IntegrationOptions options = with(Method::bdf);
     options.events = {{.name = "end of the rail",
-                       .function = [](const ForceInput& at) { return at.q(0) - 1; },
+                       .function = [](const StateView& at) { return at.q(0) - 1; },
                        .direction = 1,
                        .action =
                            [](Integrator& integrator) {
@@ -84,8 +84,8 @@ TEST_CASE("integrate: a failure says when, why and which coordinate", "[solvers]
     // x'' = x^3 with x = sqrt(2) / (1 - t) ends in infinity at t = 1.
     const System system = Oscillator{.m = 1, .k = 0}.system(
         {{.name = "explosion",
-          .force = [](const ForceInput& at, VectorOut Q) { Q(0) += at.q(0) * at.q(0) * at.q(0); },
-          .jacobian = [](const ForceInput& at, MatrixOut by_q, MatrixOut) { by_q(0, 0) += 3 * at.q(0) * at.q(0); }}});
+          .force = [](const StateView& at, VectorOut Q) { Q(0) += at.q(0) * at.q(0) * at.q(0); },
+          .jacobian = [](const StateView& at, MatrixOut by_q, MatrixOut) { by_q(0, 0) += 3 * at.q(0) * at.q(0); }}});
     for (Method method : methods) {
         Integrator integrator(system, {}, 0, vector({std::sqrt(2.0)}), vector({std::sqrt(2.0)}), with(method, 1e-5));
         const Advance advance = integrator.advance(2);
@@ -99,7 +99,7 @@ TEST_CASE("integrate: a failure says when, why and which coordinate", "[solvers]
 
 TEST_CASE("integrate: exceptions of user forces pass through, and it can be cancelled",
           "[solvers][integrate][property]") {
-    const System system = Oscillator{}.system({{.name = "thrower", .force = [](const ForceInput& at, VectorOut) {
+    const System system = Oscillator{}.system({{.name = "thrower", .force = [](const StateView& at, VectorOut) {
                                                     if (at.time > 1) throw std::runtime_error("thrown by the force");
                                                 }}});
     for (Method method : methods) {
@@ -184,7 +184,7 @@ TEST_CASE("integrate: notes of events come with the checkpoint", "[solvers][inte
     const System system = pendulum();
     IntegrationOptions options;
     options.events = {{.name = "lowest",
-                       .function = [](const ForceInput& at) { return at.q(0); },
+                       .function = [](const StateView& at) { return at.q(0); },
                        .action =
                            [](Integrator& i) {
                                i.note("first passage [s]", i.time());

@@ -20,7 +20,7 @@ struct Pushed {
     std::shared_ptr<double> force = std::make_shared<double>(0);
     std::shared_ptr<long> asked = std::make_shared<long>(0);
     System system =
-        spring_mass.system({{.name = "push", .force = [f = force, n = asked](const ForceInput&, VectorOut Q) {
+        spring_mass.system({{.name = "push", .force = [f = force, n = asked](const StateView&, VectorOut Q) {
                                  ++*n;
                                  Q(0) += *f;
                              }}});
@@ -56,7 +56,7 @@ TEST_CASE("integrate: a force that is zero where it is changed is seen at the en
         CAPTURE(static_cast<int>(method));
         const auto c = std::make_shared<double>(0);
         const System system =
-            Oscillator{.m = 2, .k = 0}.system({{.name = "push", .force = [c](const ForceInput& at, VectorOut Q) {
+            Oscillator{.m = 2, .k = 0}.system({{.name = "push", .force = [c](const StateView& at, VectorOut Q) {
                                                     Q(0) += *c * std::pow(std::max(0.0, at.time - 1), 3);
                                                 }}});
         IntegrationOptions options = with(method);
@@ -76,7 +76,7 @@ TEST_CASE("integrate: an action that changes a force and says that nothing has c
         const Pushed pushed;
         IntegrationOptions options = with(method);
         options.events = {{.name = "one second",
-                           .function = [](const ForceInput& at) { return at.time - 1; },
+                           .function = [](const StateView& at) { return at.time - 1; },
                            .action =
                                [f = pushed.force](Integrator&) {
                                    *f = 40;
@@ -135,7 +135,7 @@ TEST_CASE("integrate: advance() within advance() is refused, wherever it is call
             (void)running->advance(5);
         };
         const System system =
-            Oscillator{}.system({{.name = "caller", .force = [&](const ForceInput&, VectorOut) { call(0); }}});
+            Oscillator{}.system({{.name = "caller", .force = [&](const StateView&, VectorOut) { call(0); }}});
         IntegrationOptions options = with(method);
         options.progress = [&](double, const IntegrationStatistics&) { call(1); };
         options.cancelled = [&] {
@@ -144,7 +144,7 @@ TEST_CASE("integrate: advance() within advance() is refused, wherever it is call
         };
         options.events = {{.name = "action",
                            .function =
-                               [&](const ForceInput& at) {
+                               [&](const StateView& at) {
                                    call(3);
                                    return at.time - 0.5;
                                },

@@ -14,7 +14,7 @@ namespace {
 
 // The oscillator with a force that is zero, but throws once after 0.7 s.
 System throws_once(const std::shared_ptr<bool>& armed) {
-    return Oscillator{}.system({{.name = "thrower", .force = [armed](const ForceInput& at, VectorOut) {
+    return Oscillator{}.system({{.name = "thrower", .force = [armed](const StateView& at, VectorOut) {
                                      if (at.time > 0.7 && std::exchange(*armed, false))
                                          throw std::runtime_error("thrown by the force");
                                  }}});
@@ -80,7 +80,7 @@ TEST_CASE("integrate: a function that comes to zero happens once, whether it sta
           "[solvers][integrate][property]") {
     const System system = pendulum();
     const double quarter = oracles::SwingingPendulum(pendulum_omega, 0.5).period() / 4;
-    const auto happens = [&](const std::function<double(const ForceInput&)>& function, double until) {
+    const auto happens = [&](const std::function<double(const StateView&)>& function, double until) {
         int count = 0;
         IntegrationOptions options;
         options.max_step = 0.05;
@@ -92,10 +92,10 @@ TEST_CASE("integrate: a function that comes to zero happens once, whether it sta
         CHECK(integrator.run(sample_times(0, until, 0.1), {}).reached());
         return count;
     };
-    CHECK(happens([](const ForceInput& at) { return std::max(0.0, at.q(0)); }, 2.5 * quarter) == 1);
-    CHECK(happens([](const ForceInput& at) { return std::abs(at.time - 0.5); }, 1) == 1);  // 0.5 is an output
-    CHECK(happens([](const ForceInput& at) { return 0.5 - at.time; }, 1) == 1);
-    CHECK(happens([](const ForceInput& at) { return at.q(0); }, 2.5 * quarter) == 1);
+    CHECK(happens([](const StateView& at) { return std::max(0.0, at.q(0)); }, 2.5 * quarter) == 1);
+    CHECK(happens([](const StateView& at) { return std::abs(at.time - 0.5); }, 1) == 1);  // 0.5 is an output
+    CHECK(happens([](const StateView& at) { return 0.5 - at.time; }, 1) == 1);
+    CHECK(happens([](const StateView& at) { return at.q(0); }, 2.5 * quarter) == 1);
 }
 
 TEST_CASE("integrate: the action of an event that throws is due again", "[solvers][integrate][property]") {
@@ -104,7 +104,7 @@ TEST_CASE("integrate: the action of an event that throws is due again", "[solver
         int tries = 0, done = 0;
         IntegrationOptions options = with(method);
         options.events = {{.name = "lowest",
-                           .function = [](const ForceInput& at) { return at.q(0); },
+                           .function = [](const StateView& at) { return at.q(0); },
                            .action =
                                [&](Integrator&) {
                                    if (++tries == 1) throw std::runtime_error("thrown by the action");

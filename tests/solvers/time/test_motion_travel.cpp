@@ -40,7 +40,7 @@ TEST_CASE("motion: an event gives a driven arm a new command in mid-travel; its 
     const TravelLimits limits{0.5, 0.8};
     IntegrationOptions options;
     Event command{.name = "new command", .direction = 1};
-    command.function = [](const ForceInput& in) { return in.time - 1.3; };
+    command.function = [](const StateView& in) { return in.time - 1.3; };
     command.action = [&](Integrator& integrator) {
         const DynamicState& now = integrator.state();
         const Travel back(now.time, {now.q(i), now.qd(i), 0}, -0.5, limits);

@@ -28,7 +28,7 @@ public:
         const Kinematics kin = kinematics(system.model, state.q, workspace_);
         std::vector<LoopLoad> loops;
         system.loops.add_loads(kin, state.lambda, loops);
-        loads = joint_loads({0, state.q, state.qd, kin, state.s, state.u}, system.forces, state.qdd, loops);
+        loads = joint_loads({state, kin}, system.forces, state.qdd, loops);
     }
     // Force of the joint that carries a body, on it.
     Vec3 joint(const char* body) const { return entry(loads.joint, system_->model.index(body)).force; }

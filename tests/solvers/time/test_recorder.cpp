@@ -15,7 +15,7 @@ namespace {
 
 ChannelGroup height_of_mass(const char* name = "height", const char* alias = "PtfmHeave") {
     return {{{.name = name, .units = "m", .long_name = "height of the mass", .frame = "ground", .alias = alias}},
-            [](const ChannelInput& at, double* values) { values[0] = at.kinematics.centre_of_mass(0).z(); }};
+            [](const DynamicView& at, double* values) { values[0] = at.kinematics.centre_of_mass(0).z(); }};
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ TEST_CASE("recorder: a run that stops leaves what it reached, and can be continu
     const System system = pendulum();
     const std::vector<double> times = sample_times(0, 2, 0.1);
     IntegrationOptions options;
-    options.events = {{.name = "lowest", .function = [](const ForceInput& at) { return at.q(0); }}};
+    options.events = {{.name = "lowest", .function = [](const StateView& at) { return at.q(0); }}};
     Integrator integrator(system, {}, 0, vector({0.5}), vector({0}), options);
     Recorder recorder(integrator);
     History history;

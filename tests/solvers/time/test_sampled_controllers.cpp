@@ -70,16 +70,16 @@ struct Cart {
 
 SampledController feedback(double period, bool delayed = false) {
     SampledController controller{.name = "feedback", .inputs = {"force"}, .period = period, .delayed = delayed};
-    controller.update = [](const SampleInput& in, VectorOut u) { u(0) = -5 * in.state.q(0) - 3 * in.state.qd(0); };
+    controller.update = [](long /*sample*/, const DynamicView& in, VectorOut u) { u(0) = -5 * in.q(0) - 3 * in.qd(0); };
     return controller;
 }
 
 // Sums up: what it does depends on all samples before.
 SampledController with_memory(std::shared_ptr<double> sum) {
     SampledController controller{.name = "integral", .inputs = {"force"}, .period = 0.07, .delayed = true};
-    controller.update = [sum](const SampleInput& in, VectorOut u) {
-        *sum += 0.07 * in.state.q(0);
-        u(0) = -5 * in.state.q(0) - 3 * in.state.qd(0) - 2 * *sum;
+    controller.update = [sum](long /*sample*/, const DynamicView& in, VectorOut u) {
+        *sum += 0.07 * in.q(0);
+        u(0) = -5 * in.q(0) - 3 * in.qd(0) - 2 * *sum;
     };
     controller.save = [sum] { return std::vector<double>{*sum}; };
     controller.restore = [sum](std::span<const double> from) { *sum = from[0]; };
@@ -114,9 +114,9 @@ TEST_CASE("sampled controllers: called at exact multiples of the period, once ea
     std::vector<double> times;
     std::vector<long> samples;
     SampledController watch{.name = "watch", .inputs = {"force"}, .period = 0.1, .first = 0.05};
-    watch.update = [&](const SampleInput& in, VectorOut) {
-        times.push_back(in.state.time);
-        samples.push_back(in.sample);
+    watch.update = [&](long sample, const DynamicView& in, VectorOut) {
+        times.push_back(in.time);
+        samples.push_back(sample);
     };
     IntegrationOptions options = tight(Method::dirk);
     options.controllers = {watch};
@@ -134,7 +134,7 @@ TEST_CASE("sampled controllers: outputs at the times of samples hold what was be
     const System system = Cart().system();
     IntegrationOptions options = tight(Method::dirk);
     SampledController steps{.name = "steps", .inputs = {"force"}, .period = 0.5};
-    steps.update = [](const SampleInput& in, VectorOut u) { u(0) = static_cast<double>(in.sample + 1); };
+    steps.update = [](long sample, const DynamicView&, VectorOut u) { u(0) = static_cast<double>(sample + 1); };
     options.controllers = {steps};
     Integrator run(system, {}, 0, vector({0}), vector({0}), options);
     CHECK(run.state().u(0) == 0);
@@ -245,7 +245,9 @@ TEST_CASE("sampled controllers: what cannot be is refused with the controller's 
     writer.finish();
     CHECK_FALSE(read_checkpoint(folder / "run.h5"));
 
-    options.controllers[0].update = [](const SampleInput& in, VectorOut u) { u(0) = in.state.time > 0.55 ? NAN : 0; };
+    options.controllers[0].update = [](long /*sample*/, const DynamicView& in, VectorOut u) {
+        u(0) = in.time > 0.55 ? NAN : 0;
+    };
     Integrator failing(system, {}, 0, vector({0}), vector({0}), options);
     CHECK_THROWS_WITH(failing.advance(1),
                       Catch::Contains("controller 'feedback': at 0.6") && Catch::Contains("'force'"));

@@ -32,8 +32,8 @@ struct Carriage {
     SampledController controller(std::function<double(double time)> demand) const {
         SampledController all{.name = "places", .inputs = {"place"}, .period = period};
         all.drives = {{0, "place", 2, 0.1}};
-        all.update = [demand = std::move(demand)](const SampleInput& in, VectorOut u) {
-            u(0) = 0.1 + demand(in.state.time) / 2;
+        all.update = [demand = std::move(demand)](long /*sample*/, const DynamicView& in, VectorOut u) {
+            u(0) = 0.1 + demand(in.time) / 2;
         };
         return all;
     }

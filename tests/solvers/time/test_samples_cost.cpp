@@ -39,8 +39,8 @@ constexpr double period = 0.02;
 
 SampledController shaking() {
     SampledController controller{.name = "shaking", .inputs = {"torque"}, .period = period};
-    controller.update = [](const SampleInput& in, VectorOut u) {
-        u(0) = 0.6 * std::sin(5 * in.state.time) - 0.2 * in.state.q(0);
+    controller.update = [](long /*sample*/, const DynamicView& in, VectorOut u) {
+        u(0) = 0.6 * std::sin(5 * in.time) - 0.2 * in.q(0);
     };
     return controller;
 }
@@ -102,9 +102,9 @@ TEST_CASE("sampled controllers: matrices kept over samples and breaks are there 
     // Jacobian was taken.
     following.controllers[0].inputs.push_back("place");
     following.controllers[0].drives = {{3, "place"}};
-    following.controllers[0].update = [](const SampleInput& in, VectorOut u) {
-        u(0) = 0.6 * std::sin(5 * in.state.time) - 0.2 * in.state.q(0);
-        u(1) = 0.05 * std::cos(3 * in.state.time);
+    following.controllers[0].update = [](long /*sample*/, const DynamicView& in, VectorOut u) {
+        u(0) = 0.6 * std::sin(5 * in.time) - 0.2 * in.q(0);
+        u(1) = 0.05 * std::cos(3 * in.time);
     };
     const Vector q = Vector::Constant(6, 0.05), zero = Vector::Zero(6);
     const std::vector<double> times{0.1, 0.313, 0.5, 0.507, 0.92, 1.5};

@@ -267,7 +267,7 @@ TEST_CASE("states in time: an event finds where a state passes a value", "[solve
     for (const Method method : methods) {
         CAPTURE(static_cast<int>(method));
         IntegrationOptions options = all_tolerances(method, 1e-9);
-        options.events = {{.name = "pull", .function = [](const ForceInput& in) { return in.s(0) + 3; }}};
+        options.events = {{.name = "pull", .function = [](const StateView& in) { return in.s(0) + 3; }}};
         Integrator integrator(system, {}, 0, vector({0.3}), vector({0}), options);
         const Advance end = integrator.advance(5);
         REQUIRE(end.end == Advance::End::event);

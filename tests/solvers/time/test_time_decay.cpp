@@ -62,10 +62,7 @@ struct Cantilever {
         add_cardan_beam(tree, forces, Tree::base(), uniform_beam(5, s), "beam", {"beam"}, options);
         return {tree, forces};
     }
-    OperatingPoint rest() const {
-        const Vector zero = Vector::Zero(system.model.size());
-        return {zero, zero, zero, 0};
-    }
+    DynamicState rest() const { return at_rest(system.model.size()); }
     // The exponent seen over three periods of a mode that begins with a largest angle of `amplitude` rad.
     Complex decay(const Mode& mode, double amplitude, const IntegrationOptions& options) const {
         const ComplexVector shape = mode.shape * (amplitude / mode.shape.cwiseAbs().maxCoeff());

@@ -63,7 +63,7 @@ double drift(const System& system, const Vector& q, const Vector& qd, Integratio
         const Kinematics kin = kinematics(system.model, now.q, workspace);
         kinetic = kinetic_energy(kin, now.qd);
         most = std::max(most, kinetic);
-        const double energy = kinetic + system.forces.potential_energy(kin, now.time, now.q, now.qd);
+        const double energy = kinetic + system.forces.potential_energy({now, kin});
         if (i == 0) start = energy;
         change = std::max(change, std::abs(energy - start));
     }

@@ -15,7 +15,7 @@ public:
           kin_(kinematics(machine.system().model, state_.q, workspace_)) {}
     FieldState(const FieldState&) = delete;
     FieldState& operator=(const FieldState&) = delete;
-    ForceInput input() const { return {state_.time, state_.q, state_.qd, kin_, no_states, no_states}; }
+    StateView input() const { return {state_, kin_}; }
 
 private:
     MachineState state_;
@@ -30,7 +30,7 @@ inline Vector generalised_forces(const turbines::Turbine& machine, const WrenchF
     const Forces forces(only, machine.system().model);
     const FieldState at(machine, state);
     Vector Q(state.q.size());
-    forces.generalised_forces(at.input().kinematics, state.time, state.q, state.qd, Q);
+    forces.generalised_forces({state, at.input().kinematics}, Q);
     return Q;
 }
 

@@ -33,14 +33,15 @@ public:
         s = air.steady_states(at());
     }
     const Forces& forces() const { return windy_.system().forces; }
-    ForceInput at() {
+    StateView at() {
         kin_.emplace(kinematics(windy_.system().model, state_.q, *workspace_));
-        return {state_.time, state_.q, state_.qd, *kin_, s, no_states};
+        state_.s = s;
+        return {state_, *kin_};
     }
     // Q, then the rates.
     Vector response() {
         Vector Q(state_.q.size()), rates(s.size());
-        forces().evaluate(at(), Q, rates);
+        forces().generalised_forces(at(), Q, rates);
         Vector out(Q.size() + rates.size());
         out << Q, rates;
         return out;
@@ -80,8 +81,8 @@ TEST_CASE("lagging air on a machine: derivatives are those of forces and rates",
         Random random(8);
         for (Eigen::Index i = 0; i < air.s.size(); ++i) air.s(i) += uniform(random, -0.02, 0.02);
         ForceDerivatives own;
-        StateDerivatives states;
-        air.forces().derivatives(air.at(), own, states);
+        air.forces().derivatives(air.at(), own);
+        const StateDerivatives& states = own.states;
         const Eigen::Index n = air.state().q.size(), m = air.s.size();
         Matrix by_q(n + m, n), by_qd(n + m, n), by_s(n + m, m);
         by_q << -own.loads - own.elastic - own.gravity, states.f_q;

@@ -91,7 +91,7 @@ public:
         const CampbellCase one = in(wind);
         const Vector zero = Vector::Zero(one.system->model.size());
         std::vector<int> free = one.system->model.coordinates().free_without(one.rotor->spin);
-        SecondOrderSystem system = restrict_to(linearise(*one.system, {zero, zero, zero, 0}), free);
+        SecondOrderSystem system = restrict_to(linearise(*one.system, at_rest(zero)), free);
         system.C.setZero();
         return system;
     }

@@ -89,15 +89,13 @@ TEST_CASE("air on a machine: loads of the roots by equilibrium", "[crosscheck]")
     MachineState state = turning(machine, 0.6);
     state.qdd.setZero();
     const auto sampled = [&](const Turbine& turbine) {
-        const FieldState at(turbine, state);
-        const JointLoads loads = joint_loads(at.input(), turbine.system().forces, state.qdd);
-        const Vector none = Vector::Zero(state.q.size());
+        const System& system = turbine.system();
+        const FieldState field(turbine, state);
+        const DynamicView at(state, field.input().kinematics, system.forces, system.loops);
         std::map<std::string, double> out;
         for (const ChannelGroup& group : channels(turbine)) {
             std::vector<double> values(group.channels.size());
-            group.sample({0, state.q, state.qd, state.qdd, none, at.input().kinematics, turbine.system().forces, loads,
-                          no_states, no_states, no_states},
-                         values.data());
+            group.sample(at, values.data());
             for (std::size_t i = 0; i < values.size(); ++i) out[group.channels[i].alias] = values[i];
         }
         return out;
@@ -165,7 +163,7 @@ TEST_CASE("air on a machine: evaluations allocate nothing", "[memory]") {
     const MachineAir air(machine, nrel5mw_aero_blade(), slanted);
     const WrenchField field = air.field();
     const FieldState at(machine, shaken(machine, 2));
-    const ForceInput input = at.input();
+    const StateView input = at.input();
     const Eigen::Index n = input.q.size();
     std::vector<Wrench> wrenches(field.points.size());
     Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n);

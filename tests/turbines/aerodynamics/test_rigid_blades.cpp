@@ -110,7 +110,7 @@ TEST_CASE("rigid blades: in the wind they are those of a rigid rotor", "[crossch
         const double azimuth = std::atan2(-(shaft.transpose() * up).y(), (shaft.transpose() * up).z());
         CHECK((axis - shaft.col(0)).norm() < 1e-12);
         const RotorAir expected = rigid_rotor_air(own.air, rotor, wind, own.speed, azimuth, own.options.pitch);
-        const MachineAir::Rotor found = air.rotor(ForceInput{0, state.at.q, state.at.qd, kin, no_states, no_states});
+        const MachineAir::Rotor found = air.rotor(StateView(state.at, kin));
         CHECK(found.moment.x() == Approx(expected.moment.x()).epsilon(1e-9));
         CHECK((found.force - expected.force).norm() < 1e-9 * expected.force.norm());
     }

@@ -20,7 +20,7 @@ const SteadyWind oblique{.speed = 11, .direction = 0.3, .upflow = 0.1};
 const AeroNacelle box{.area = {30, 50, 40}, .drag = {1.1, 1.2, 0.9}, .centre = {1.5, 0.2, 1.8}};
 
 // Force, and moment about the ground's origin.
-Wrench sum_of(const WrenchField& field, const ForceInput& at) {
+Wrench sum_of(const WrenchField& field, const StateView& at) {
     std::vector<Wrench> all(field.points.size());
     field.wrenches(at, all);
     Wrench sum;
@@ -63,15 +63,13 @@ TEST_CASE("air on a tower: loads of its base by equilibrium", "[crosscheck]") {
     MachineState state(machine);
     state.qdd.setZero();
     const auto sampled = [&](const Turbine& turbine) {
-        const FieldState at(turbine, state);
-        const JointLoads loads = joint_loads(at.input(), turbine.system().forces, state.qdd);
-        const Vector none = Vector::Zero(state.q.size());
+        const System& system = turbine.system();
+        const FieldState field(turbine, state);
+        const DynamicView at(state, field.input().kinematics, system.forces, system.loops);
         std::map<std::string, double> out;
         for (const ChannelGroup& group : channels(turbine)) {
             std::vector<double> values(group.channels.size());
-            group.sample({0, state.q, state.qd, state.qdd, none, at.input().kinematics, turbine.system().forces, loads,
-                          no_states, no_states, no_states},
-                         values.data());
+            group.sample(at, values.data());
             for (std::size_t i = 0; i < values.size(); ++i) out[group.channels[i].alias] = values[i];
         }
         return out;
@@ -159,7 +157,7 @@ TEST_CASE("air on a tower: evaluations allocate nothing", "[memory]") {
     const MachineAir air(machine, nrel5mw_aero_blade(), twisted, {},
                          {.tower = with_shadow(table(6, TowerInfluence::bak), TowerShadow::eames), .nacelle = box});
     const FieldState at(machine, passing(machine, 2));
-    const ForceInput input = at.input();
+    const StateView input = at.input();
     const Eigen::Index n = input.q.size();
     Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n);
     for (const WrenchField& field : {air.field(), air.support().field()}) {

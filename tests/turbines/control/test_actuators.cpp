@@ -68,7 +68,7 @@ Turbine loaded(const Turbine& turbine, ForceSet forces) {
     return turbine.with_forces(forces);
 }
 
-solvers::OperatingPoint steady(const Turbine& turbine) {
+DynamicState steady(const Turbine& turbine) {
     const Turbine with_wind = loaded(turbine, turbine.forces());
     const solvers::SteadyState state =
         solvers::steady_state(with_wind.system(), turbine.rotor().spin, {.rotor_speed = speed});
@@ -80,11 +80,11 @@ solvers::SampledController baseline(const Turbine& turbine, const std::vector<st
     VariableSpeedParameters parameters = turbines::nrel5mw_controller();
     const auto program = std::make_shared<VariableSpeedController>(parameters);
     solvers::SampledController controller{.name = "baseline", .inputs = inputs, .period = parameters.period};
-    controller.update = [program, layout = turbine.layout()](const solvers::SampleInput& in, VectorOut u) {
+    controller.update = [program, layout = turbine.layout()](long /*sample*/, const DynamicView& in, VectorOut u) {
         const Model& model = in.kinematics.model();
         const auto [torque_demand, pitch_demand] =
-            program->step({layout.gear_ratio * in.state.qd(model.index(*layout.generator)),
-                           layout.pitch_settings[0] - in.state.q(model.index(layout.pitch[0]))});
+            program->step({layout.gear_ratio * in.qd(model.index(*layout.generator)),
+                           layout.pitch_settings[0] - in.q(model.index(layout.pitch[0]))});
         u(0) = pitch_demand;
         u(1) = torque_demand;
     };
@@ -115,7 +115,7 @@ TEST_CASE("actuators: pitch bearings get springs of the frequency asked for, oth
 TEST_CASE("actuators: a machine that turns steadily on its springs goes on so on its actuators, without a jump",
           "[property]") {
     const Turbine turbine = machine();
-    const solvers::OperatingPoint start = steady(turbine);
+    const DynamicState start = steady(turbine);
     const ActuatedForces actuated(turbine, two_hertz);
     const double balance = torque / turbine.layout().gear_ratio;
     for (const bool individual : {false, true}) {
@@ -140,7 +140,7 @@ TEST_CASE("actuators: channels and signals are the demands, the torque and its p
     const Turbine turbine = machine();
     const ActuatedForces actuated(turbine, two_hertz);
     const Turbine under = turbine.with_forces(actuated.with_inputs(4e4));
-    const solvers::OperatingPoint start = steady(turbine);
+    const DynamicState start = steady(turbine);
     solvers::Integrator run(under.system(), {}, 0, start.q, start.qd);
     solvers::Recorder recorder(run, {actuated.channels(under.system(), false, 0.9)});
     solvers::History history;
@@ -166,7 +166,7 @@ TEST_CASE("actuators: channels and signals are the demands, the torque and its p
 
 TEST_CASE("actuators: a run under the baseline controller goes on from a checkpoint bit for bit", "[property]") {
     const Turbine turbine = machine();
-    const solvers::OperatingPoint start = steady(turbine);
+    const DynamicState start = steady(turbine);
     const ActuatedForces actuated(turbine, two_hertz);
     const Turbine under = loaded(turbine, actuated.with_inputs(4.2e4));
     const auto options = [&] {
@@ -199,7 +199,7 @@ TEST_CASE("actuators: the modes of the closed loop are the eigenvalues of its de
         ActuatedForces(turbine, two_hertz).with_demands({{loop.pitch}, loop.torque}, torque / layout.gear_ratio);
     for (const ControlBlock* block : {&loop.filter, &loop.integral}) forces.add_states(block->element);
     const Turbine closed = loaded(turbine, forces);
-    solvers::OperatingPoint at = steady(turbine);
+    DynamicState at = steady(turbine);
     at.s = closed.system().forces.states().initial();
     at.u = {};
     const int spin = turbine.rotor().spin;
@@ -227,24 +227,24 @@ TEST_CASE("actuators: the modes of the closed loop are the eigenvalues of its de
 TEST_CASE("actuators: a prescribed pitch follows its demand, and only its drive feels the inertia of the pitch",
           "[analytic]") {
     const double J = 3e4, T = 0.0125;
-    std::vector<solvers::DynamicState> ends;
+    std::vector<DynamicState> ends;
     for (const double inertia : {0.0, J}) {
         const Turbine turbine = prescribed_machine(inertia);
         const ActuatedForces actuated(turbine);
         CHECK(actuated.in_words() == "pitch prescribed, one period behind the demand");
         const Turbine under = loaded(turbine, actuated.with_inputs(4.2e4, true));
-        const solvers::OperatingPoint start = steady(turbine);
+        const DynamicState start = steady(turbine);
         solvers::SampledController ramps{.name = "ramps", .inputs = actuated.inputs(true), .period = T};
         ramps.drives = actuated.drives(true);
-        ramps.update = [](const solvers::SampleInput& in, VectorOut u) {
-            for (int k = 0; k < 3; ++k) u(k) = pitch + 0.02 * (k + 1) * in.state.time * in.state.time;
+        ramps.update = [](long /*sample*/, const DynamicView& in, VectorOut u) {
+            for (int k = 0; k < 3; ++k) u(k) = pitch + 0.02 * (k + 1) * in.time * in.time;
         };
         solvers::IntegrationOptions options;
         options.tolerances.relative = 1e-9;
         options.controllers = {ramps};
         solvers::Integrator run(under.system(), {}, 0, start.q, start.qd, options);
         REQUIRE(run.advance(20.5 * T).reached());
-        const solvers::DynamicState& at = run.state();
+        const DynamicState& at = run.state();
         const Model& model = under.system().model;
         for (int k = 0; k < 3; ++k) {
             // Second differences of a parabola are those of the parabola; half a period on from sample 20.
@@ -285,7 +285,7 @@ TEST_CASE("actuators: a spring without an actuator rests at the demand", "[analy
     const Kinematics kin = kinematics(model, q, workspace);
     Vector s = system.forces.states().initial(), u = system.forces.inputs().initial();
     u(system.forces.inputs().index("pitch demand")) += 0.05;
-    system.forces.evaluate({0, q, qd, kin, s, u}, Q, f);
+    system.forces.generalised_forces({{.q = q, .qd = qd, .s = s, .u = u}, kin}, Q, f);
     CHECK(-Q(i) == Approx(2e7 * (0.05 - 0.02) - 5e5 * 0.3).epsilon(1e-12));
 }
 

@@ -13,26 +13,21 @@
 
 namespace cardan::testing {
 
-/// Position, rates and accelerations of all coordinates at a time.
-struct MachineState {
-    Vector q, qd, qdd;
-    double time = 0;
-    explicit MachineState(const turbines::Turbine& turbine)
-        : q(Vector::Zero(turbine.system().model.size())), qd(q), qdd(q) {}
+/// A state of a machine, at first at rest.
+struct MachineState : DynamicState {
+    explicit MachineState(const turbines::Turbine& turbine) : DynamicState(at_rest(turbine.system().model.size())) {
+        actuator = Vector::Zero(q.size());
+    }
 };
 
 class Sampled {
 public:
     Sampled(const System& system, const std::vector<ChannelGroup>& groups, const MachineState& at) {
         Workspace workspace(system.model);
-        const Kinematics kin = kinematics(system.model, at.q, workspace);
-        const JointLoads loads = joint_loads(kin, system.forces, at.qd, at.qdd, at.time);
-        const Vector none = Vector::Zero(at.q.size());
+        const DynamicView view(at, kinematics(system.model, at.q, workspace), system.forces, system.loops);
         for (const ChannelGroup& group : groups) {
             std::vector<double> own(group.channels.size());
-            group.sample(
-                {at.time, at.q, at.qd, at.qdd, none, kin, system.forces, loads, no_states, no_states, no_states},
-                own.data());
+            group.sample(view, own.data());
             for (std::size_t i = 0; i < own.size(); ++i) {
                 values[group.channels[i].name] = own[i];
                 if (!group.channels[i].alias.empty()) aliases[group.channels[i].alias] = own[i];
@@ -73,7 +68,7 @@ inline MachineState in_motion(const turbines::Turbine& turbine, unsigned seed,
     Workspace workspace(model);
     const Kinematics kin = kinematics(model, state.q, workspace);
     Vector Q(model.size()), actuator(model.size());
-    turbine.system().forces.generalised_forces(kin, 0, state.q, state.qd, Q);
+    turbine.system().forces.generalised_forces({state, kin}, Q);
     ForwardDynamics(model).solve(kin, state.qd, Q, state.qdd, actuator);
     return state;
 }

@@ -48,9 +48,8 @@ std::vector<int> all_but_spin(const Turbine& turbine) {
     return rows;
 }
 
-solvers::OperatingPoint at_rest(const Turbine& turbine, const Vector& q = {}) {
-    const Vector zero = Vector::Zero(turbine.system().model.size());
-    return {q.size() > 0 ? q : zero, zero, zero};
+DynamicState still_at(const Turbine& turbine, const Vector& q = {}) {
+    return at_rest(q.size() > 0 ? q : Vector(Vector::Zero(turbine.system().model.size())));
 }
 
 // Small angles, displacements of the platform and rates.
@@ -80,7 +79,7 @@ struct ByHand {
 };
 
 solvers::SecondOrderSystem locked(const Turbine& turbine) {
-    return solvers::restrict_to(solvers::linearise(turbine.system(), at_rest(turbine)), platform_rows(turbine));
+    return solvers::restrict_to(solvers::linearise(turbine.system(), still_at(turbine)), platform_rows(turbine));
 }
 
 }  // namespace
@@ -177,7 +176,7 @@ TEST_CASE("floating machine: unmoored, it moves as a rigid body without elastic 
     raft.damping.setZero();
     const Turbine turbine = floating(raft, 1, Vec3::Zero());
     const solvers::SecondOrderSystem system =
-        solvers::restrict_to(solvers::linearise(turbine.system(), at_rest(turbine)), all_but_spin(turbine));
+        solvers::restrict_to(solvers::linearise(turbine.system(), still_at(turbine)), all_but_spin(turbine));
     for (Eigen::Index i = 0; i < system.K.rows(); ++i)
         if (turbine.system().model.coordinates()[entry(system.coordinates, i)].part == "platform") {
             CHECK(system.K.row(i).isZero(0));
@@ -208,7 +207,7 @@ TEST_CASE(
             Workspace workspace(turbine.system().model);
             const Kinematics kin = kinematics(turbine.system().model, state.q, workspace);
             Vector Q(model.size()), actuator = Vector::Zero(model.size());
-            turbine.system().forces.generalised_forces(kin, 0, state.q, state.qd, Q);
+            turbine.system().forces.generalised_forces({state, kin}, Q);
             Q += more;
             ForwardDynamics(turbine.system().model).solve(kin, state.qd, Q, qdd, actuator);
             return actuator;
@@ -246,7 +245,7 @@ TEST_CASE("floating machine: a steady drift changes nothing where no mooring and
         for (Eigen::Index i = 0; i < 3; ++i) qd(entry(rows, i)) += drift(i);
         Workspace workspace(model);
         const Kinematics kin = kinematics(model, state.q, workspace);
-        turbine.system().forces.generalised_forces(kin, 0, state.q, qd, Q);
+        turbine.system().forces.generalised_forces({{.q = state.q, .qd = qd}, kin}, Q);
         ForwardDynamics(model).solve(kin, qd, Q, qdd, actuator);
         return qdd;
     };
@@ -264,9 +263,9 @@ TEST_CASE("floating machine: total momentum changes by external forces alone", "
     Workspace workspace(model);
     const Kinematics kin = kinematics(model, state.q, workspace);
     Vector Q(model.size()), actuator = Vector::Zero(model.size());
-    turbine.system().forces.generalised_forces(kin, 0, state.q, state.qd, Q);
+    turbine.system().forces.generalised_forces({state, kin}, Q);
     ForwardDynamics(model).solve(kin, state.qd, Q, state.qdd, actuator);
-    const JointLoads loads = joint_loads(kin, turbine.system().forces, state.qd, state.qdd);
+    const JointLoads loads = joint_loads({state, kin}, turbine.system().forces, state.qdd);
     Vec3 rate = Vec3::Zero(), outer = Vec3(0, 0, platform.buoyancy);
     for (int i = 0; i < model.size(); ++i) {
         const double m = model.body(i).inertia.mass;
@@ -304,7 +303,7 @@ TEST_CASE("floating machine: in equilibrium it pitches by the overhang of nacell
     Workspace workspace(turbine.system().model);
     const Kinematics kin = kinematics(turbine.system().model, q, workspace);
     Vector Q(q.size());
-    turbine.system().forces.generalised_forces(kin, 0, q, Vector::Zero(q.size()), Q);
+    turbine.system().forces.generalised_forces({{.q = q, .qd = Vector::Zero(q.size())}, kin}, Q);
     REQUIRE(std::abs(load(4)) > 1e5);
     CHECK(std::abs(expected(4)) > 1e-4);
     // Rigid it is in equilibrium there, up to the square of the angle.

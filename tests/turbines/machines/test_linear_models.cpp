@@ -41,8 +41,8 @@ double gear() {
     return machine().layout().gear_ratio;
 }
 
-const OperatingPoint& steady() {
-    static const OperatingPoint at = [] {
+const DynamicState& steady() {
+    static const DynamicState at = [] {
         SteadyOptions options;
         options.rotor_speed = Omega;
         const SteadyState state = steady_state(machine().system(), spin(), options);
@@ -86,7 +86,7 @@ class Nonlinear {
 public:
     explicit Nonlinear(std::vector<bool> driven) : driven_(std::move(driven)), groups_(turbines::channels(machine())) {}
 
-    Vector operator()(const OperatingPoint& at, const Vector& more_Q, const FrameLoad* load) {
+    Vector operator()(const DynamicState& at, const Vector& more_Q, const FrameLoad* load) {
         ForceSet forces = machine().forces();
         if (load) forces.add_wrench(*load);
         const turbines::Turbine loaded = machine().with_forces(forces);
@@ -94,17 +94,17 @@ public:
         const Eigen::Index n = system.model.size();
         Workspace workspace(system.model);
         const Kinematics kin = kinematics(system.model, at.q, workspace);
-        Vector Q(n), qdd = at.qdd, actuator(n);
-        system.forces.generalised_forces(kin, at.time, at.q, at.qd, Q);
+        Vector Q(n);
+        DynamicState moving = at;
+        moving.actuator.resize(n);
+        system.forces.generalised_forces({at, kin}, Q);
         Q += more_Q;
-        ForwardDynamics(system.model, driven_).solve(kin, at.qd, Q, qdd, actuator);
-        const JointLoads loads = joint_loads(kin, system.forces, at.qd, qdd);
+        ForwardDynamics(system.model, driven_).solve(kin, at.qd, Q, moving.qdd, moving.actuator);
+        const DynamicView view(moving, kin, system.forces, system.loops);
         Vector values(400);
         Eigen::Index count = 0;
         for (const ChannelGroup& group : groups_) {
-            group.sample(
-                {at.time, at.q, at.qd, qdd, actuator, kin, system.forces, loads, no_states, no_states, no_states},
-                values.data() + count);
+            group.sample(view, values.data() + count);
             count += std::ssize(group.channels);
         }
         return values.head(count);
@@ -137,7 +137,7 @@ struct Start {
 
 // Multi-blade states of a motion, deviations from the steady state that turns at Omega.
 Vector deviation(const LinearModel& model, const DynamicState& state) {
-    const OperatingPoint& at = steady();
+    const DynamicState& at = steady();
     const auto half = std::ssize(model.coordinates);
     Vector x(2 * half);
     x << (state.q - at.q)(model.coordinates), (state.qd - at.qd)(model.coordinates);
@@ -150,10 +150,10 @@ Vector deviation(const LinearModel& model, const DynamicState& state) {
 UserForce generator_torque(std::function<double(double time, double speed)> torque) {
     UserForce force;
     force.name = "generator torque";
-    force.force = [=](const ForceInput& in, VectorOut Q) {
+    force.force = [=](const StateView& in, VectorOut Q) {
         Q(spin()) -= gear() * torque(in.time, gear() * in.qd(spin()));
     };
-    force.jacobian = [=](const ForceInput& in, MatrixOut, MatrixOut by_rate) {
+    force.jacobian = [=](const StateView& in, MatrixOut, MatrixOut by_rate) {
         const double speed = gear() * in.qd(spin()), h = 1;
         by_rate(spin(), spin()) -=
             gear() * gear() * (torque(in.time, speed + h) - torque(in.time, speed - h)) / (2 * h);  // linear laws
@@ -219,7 +219,7 @@ TEST_CASE("linear model: C and D of all channels are the derivatives of the nonl
         if (pitch_moves)
             for (BodyId pitch : machine().layout().pitch) entry(driven, m.index(pitch)) = true;
         Nonlinear channels(driven);
-        OperatingPoint at = steady();
+        DynamicState at = steady();
         at.q(spin()) = sample.azimuth;
         const Vector none = Vector::Zero(m.size());
         const Vector C_size = sample.C.rowwise().norm();
@@ -231,7 +231,7 @@ TEST_CASE("linear model: C and D of all channels are the derivatives of the nonl
             for (double& entry : x) entry = uniform(random, -1, 1);
             const Eigen::Index half = x.size() / 2;
             const Vector found = slope(1e-5, [&](double h) {
-                OperatingPoint moved = at;
+                DynamicState moved = at;
                 for (Eigen::Index i = 0; i < half; ++i) {
                     moved.q(entry(model.coordinates, i)) += h * x(i);
                     moved.qd(entry(model.coordinates, i)) += h * x(half + i);
@@ -252,7 +252,7 @@ TEST_CASE("linear model: C and D of all channels are the derivatives of the nonl
                 const double step = !motion ? 1e3 : derivative == 0 ? 1e-4 : derivative == 1 ? 1e-2 : 10;
                 const double rounding = 1e-13 * sample.y.cwiseAbs().maxCoeff() / step;
                 const Vector found = slope(step, [&](double h) {
-                    OperatingPoint moved = at;
+                    DynamicState moved = at;
                     Vector Q = none;
                     FrameLoad load{.name = "varied", .frame = input.frame(), .axes = input.axes()};
                     if (input.kind() == LinearInput::Kind::force) load.wrench.force = h * input.direction();

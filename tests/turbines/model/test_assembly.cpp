@@ -19,7 +19,7 @@ turbines::Turbine with_blades(int blades) {
 solvers::SecondOrderSystem in_fixed_frame(const turbines::Turbine& machine, double azimuth, double rotor_speed) {
     solvers::SteadyOptions options;
     options.rotor_speed = rotor_speed;
-    solvers::OperatingPoint at = solvers::steady_state(machine.system(), machine.rotor().spin, options).at;
+    DynamicState at = solvers::steady_state(machine.system(), machine.rotor().spin, options).at;
     at.q(machine.rotor().spin) = azimuth;
     const std::vector<int> free = machine.system().model.coordinates().free();
     const solvers::ColemanTransform coleman(machine.rotor(), free);
@@ -190,13 +190,13 @@ TEST_CASE("assembly: tower and blades are damped to the ratio given for their fi
 TEST_CASE("assembly: without structural and joint damping there is none", "[property]") {
     const turbines::Turbine machine = turbines::wt600(undamped());
     const Vector zero = Vector::Zero(machine.system().model.size());
-    CHECK(solvers::linearise(machine.system(), {zero, zero, zero, 0}).damping.norm() == 0);
+    CHECK(solvers::linearise(machine.system(), at_rest(zero)).damping.norm() == 0);
     turbines::AssemblyOptions joints = undamped(), structure = undamped();
     joints.joint_damping = true;
     structure.structural_damping = true;
     const auto damped = [&](const turbines::AssemblyOptions& options, const char* coordinate) {
         const turbines::Turbine own = turbines::wt600(options);
-        const Matrix D = solvers::linearise(own.system(), {zero, zero, zero, 0}).damping;
+        const Matrix D = solvers::linearise(own.system(), at_rest(zero)).damping;
         const int i = own.system().model.index(coordinate);
         return D(i, i);
     };

@@ -89,7 +89,7 @@ private:
         const Kinematics kin = kinematics(model, state.q, workspace);
         Vector Q(model.size());
         actuator = Vector::Zero(model.size());
-        turbine.system().forces.generalised_forces(kin, 0, state.q, state.qd, Q);
+        turbine.system().forces.generalised_forces({state, kin}, Q);
         ForwardDynamics(model).solve(kin, state.qd, Q, state.qdd, actuator);
     }
 };
@@ -350,7 +350,7 @@ TEST_CASE("machine on a free platform: it falls as a whole; without gravity its 
     Workspace workspace(model);
     Vector Q(model.size()), qdd(model.size()), none = Vector::Zero(model.size()), actuator = none;
     const Kinematics kin = kinematics(model, none, workspace);
-    falling.turbine.system().forces.generalised_forces(kin, 0, none, none, Q);
+    falling.turbine.system().forces.generalised_forces({{.q = none, .qd = none}, kin}, Q);
     ForwardDynamics(model).solve(kin, none, Q, qdd, actuator);
     qdd(falling.platform(2)) -= earth_gravity.z();
     CHECK(qdd.cwiseAbs().maxCoeff() < 1e-9);

@@ -68,7 +68,7 @@ TEST_CASE("shaft beam: the transformed matrices are the same at every azimuth, s
     const auto steady = solvers::steady_state(machine.system(), rotor.spin, options);
     REQUIRE(steady.converged);
     const auto transformed = [&](const RotorMap& map, double azimuth) {
-        solvers::OperatingPoint at = steady.at;
+        DynamicState at = steady.at;
         at.q(rotor.spin) = azimuth;
         const solvers::ColemanTransform coleman(map, free);
         return coleman.transform(solvers::restrict_to(solvers::linearise(machine.system(), at), free), azimuth,

@@ -174,7 +174,7 @@ TEST_CASE("channels: a force on a nacelle that is fixed to a rigid tower comes d
         CHECK((known.vector("TwrBsF", "t") - F).norm() < 1e-9);
         CHECK((known.vector("TwrBsM", "t") - arm.cross(F)).norm() < 1e-8);
         if (!afloat) continue;  // the ground takes no external wrenches
-        const auto wind = [F](const ForceInput&) { return Wrench{F, Vec3::Zero()}; };
+        const auto wind = [F](const StateView&) { return Wrench{F, Vec3::Zero()}; };
         const Sampled given(bare.system(), channels(bare, {{nacelle, wind}}), MachineState(bare));
         for (const char* end : {"TwrBsMxt", "TwrBsMyt", "YawBrFxp", "TwrBsFzt"})
             CHECK(given[end] == Approx(known[end]).margin(1e-9));
@@ -213,8 +213,7 @@ TEST_CASE("channels: an external wrench counts as one of the force set does", "[
     const Turbine bare = assemble(wt600_description(), heavy());
     const MachineState state = in_motion(machine.turbine, 4);
     Workspace workspace(bare.system().model);
-    const Wrench load = machine.rotor.wrench(
-        {0, state.q, state.qd, kinematics(bare.system().model, state.q, workspace), no_states, no_states});
+    const Wrench load = machine.rotor.wrench({state, kinematics(bare.system().model, state.q, workspace)});
     ForceSet forces = bare.forces();
     forces.add_wrench({"load", bare.layout().hub, load, WrenchAxes::base});
     const Turbine known = bare.with_forces(forces);
@@ -351,7 +350,7 @@ TEST_CASE("channels: an external wrench without a function or on the base is ref
     check_refused([&] { (void)channels(turbine, {{turbine.layout().hub, {}}}); }, {"external wrench", "function"});
     check_refused(
         [&] {
-            (void)channels(turbine, {{Tree::base(), [](const ForceInput&) { return Wrench{}; }}});
+            (void)channels(turbine, {{Tree::base(), [](const StateView&) { return Wrench{}; }}});
         },
         {"external wrench on the frame", "a frame of a body"});
 }

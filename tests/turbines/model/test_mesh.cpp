@@ -20,14 +20,14 @@ AssemblyOptions with(const MeshOptions& mesh) {
     return {.mesh = mesh};
 }
 
-std::vector<double> at_rest(const Turbine& turbine) {
+std::vector<double> frequencies_at_rest(const Turbine& turbine) {
     std::vector<double> hz;
     for (const solvers::Mode& mode : solvers::natural_modes(turbine.system()).modes)
         if (mode.oscillates()) hz.push_back(mode.natural_hz());
     return hz;
 }
-std::vector<double> at_rest(const TurbineDescription& description, int blade, int tower) {
-    return at_rest(assemble(
+std::vector<double> frequencies_at_rest(const TurbineDescription& description, int blade, int tower) {
+    return frequencies_at_rest(assemble(
         description,
         {.tower_elements = tower, .blade_elements = blade, .structural_damping = false, .joint_damping = false}));
 }
@@ -41,8 +41,9 @@ TEST_CASE("mesh: the frequencies asked for are within the tolerance of those of 
         REQUIRE(mesh.converged);
         CHECK(mesh.change <= tolerance);
         CHECK(mesh.largest_hz == 12);
-        const std::vector<double> found = at_rest(description, mesh.blade_elements, mesh.tower_elements),
-                                  finer = at_rest(description, 4 * mesh.blade_elements, 4 * mesh.tower_elements);
+        const std::vector<double> found = frequencies_at_rest(description, mesh.blade_elements, mesh.tower_elements),
+                                  finer = frequencies_at_rest(description, 4 * mesh.blade_elements,
+                                                              4 * mesh.tower_elements);
         double largest = 0;
         std::size_t count = 0;
         for (; finer[count] <= 12; ++count) largest = std::max(largest, std::abs(found[count] / finer[count] - 1));
@@ -135,7 +136,7 @@ TEST_CASE("mesh: a machine is assembled with as many elements as it takes, and s
 
     // The same numbers, given: the same machine, and nothing is sought.
     const Turbine again = assemble(description, with_elements({}, mesh));
-    CHECK(at_rest(again) == at_rest(turbine));
+    CHECK(frequencies_at_rest(again) == frequencies_at_rest(turbine));
     CHECK(again.mesh().modes == 0);
     CHECK_THAT(again.summary(), Catch::Contains("in the tower, as given"));
     const Turbine blade = isolated_blade(description, {});

@@ -61,13 +61,13 @@ struct Motion {
 };
 
 // The library's machine at a state, blades undeformed unless changed.
-struct State {
+struct PlatformState {
     const Turbine& machine;
     const Model& model = machine.system().model;
     Vector q = Vector::Zero(model.size()), qd = q, qdd = q, actuator = q;
     Workspace workspace{model};
 
-    State(const Turbine& m, const Motion& motion) : machine(m) {
+    PlatformState(const Turbine& m, const Motion& motion) : machine(m) {
         for (std::size_t i = 0; i < 8; ++i) {
             const BodyId body = i < 6    ? m.layout().platform->coordinates.at(i)
                                 : i == 6 ? *m.layout().yaw
@@ -90,16 +90,16 @@ struct State {
     void solve(const Forces& forces) {
         Vector Q(model.size());
         const Kinematics at = kin();
-        forces.generalised_forces(at, 0, q, qd, Q);
+        forces.generalised_forces({{.q = q, .qd = qd}, at}, Q);
         ForwardDynamics(model).solve(at, qd, Q, qdd, actuator);
     }
     void solve() { solve(machine.system().forces); }
     std::vector<double> sample(const ChannelGroup& group) {
         const Kinematics at = kin();
-        const JointLoads loads = joint_loads(at, machine.system().forces, qd, qdd);
+        const System& system = machine.system();
+        const DynamicState state{{.q = q, .qd = qd}, qdd, {}, actuator};
         std::vector<double> values(group.channels.size());
-        group.sample({0, q, qd, qdd, actuator, at, machine.system().forces, loads, no_states, no_states, no_states},
-                     values.data());
+        group.sample({state, at, system.forces, system.loops}, values.data());
         return values;
     }
 };
@@ -127,9 +127,9 @@ TEST_CASE("platform: blade roots move as the frames written out say, with veloci
     const Turbine m = machine(1, 3);
     for (unsigned seed = 1; seed <= 10; ++seed) {
         const Motion motion(seed);
-        State s(m, motion);
+        PlatformState s(m, motion);
         const Kinematics kin = s.kin();
-        const JointLoads loads = joint_loads(kin, m.system().forces, s.qd, s.qdd);
+        const JointLoads loads = joint_loads({{.q = s.q, .qd = s.qd}, kin}, m.system().forces, s.qdd);
         for (std::size_t k = 0; k < 3; ++k) {
             const Frames exact = motion.frames(2 * pi / 3 * static_cast<double>(k));
             const turbines::MachineLayout& layout = m.layout();
@@ -196,7 +196,7 @@ TEST_CASE("platform: root loads of the undeformed blade are weight and inertia o
             const Turbine m = machine(elements, 1, blade);
             for (unsigned seed = 1; seed <= 5; ++seed) {
                 const Motion motion(seed);
-                State s(m, motion);
+                PlatformState s(m, motion);
                 const std::vector<double> values = s.sample(turbines::blade_channels(m));
                 const Vec6 exact = rigid_blade_loads(blade, motion.frames(), {0, 0, -units::standard_gravity});
                 for (int i = 0; i < 6; ++i) {
@@ -213,7 +213,7 @@ TEST_CASE("platform: drives carry the root loads of the deformed blade; section 
     const Turbine m = machine(4);
     for (unsigned seed = 1; seed <= 5; ++seed) {
         const Motion motion(seed);
-        State s(m, motion);
+        PlatformState s(m, motion);
         s.deform(seed);
         s.solve();
         const std::vector<double> values = s.sample(turbines::blade_channels(m));
@@ -245,7 +245,7 @@ TEST_CASE("platform: drives carry the root loads of the deformed blade; section 
         }
 
         const Kinematics kin = s.kin();
-        const JointLoads loads = joint_loads(kin, m.system().forces, s.qd, s.qdd);
+        const JointLoads loads = joint_loads({{.q = s.q, .qd = s.qd}, kin}, m.system().forces, s.qdd);
         const SectionLoads section = equilibrium_loads(m.layout().blades[0], kin, m.system().forces, loads, 0);
         for (int i = 0; i < 6; ++i) CHECK(std::abs(section.values(i) + entry(values, 3 + i)) < scale * arm);
     }
@@ -256,14 +256,14 @@ TEST_CASE(
     "[property]") {
     const Turbine m = machine(4);
     const Motion motion(7);
-    State still(m, motion);
+    PlatformState still(m, motion);
     still.deform(7);
     still.solve();
     const double size = still.qdd.norm(), forces = still.actuator.norm();
     constexpr std::array directions{BaseCoordinate::surge, BaseCoordinate::sway, BaseCoordinate::heave};
     const std::array<Vec3, 3> along{Vec3::UnitX(), -Vec3::UnitY(), Vec3::UnitZ()};
     for (std::size_t i = 0; i < 3; ++i) {
-        State moving = State(m, motion);
+        PlatformState moving = PlatformState(m, motion);
         moving.q = still.q;
         moving.qd = still.qd;
         const int a = moving.model.index(m.layout().platform->coordinate(directions.at(i)));
@@ -273,13 +273,13 @@ TEST_CASE(
         CHECK((moving.qdd - still.qdd).norm() < 1e-9 * size);
         CHECK((moving.actuator - still.actuator).norm() < 1e-9 * forces);
 
-        State accelerated = State(m, motion);
+        PlatformState accelerated = PlatformState(m, motion);
         accelerated.q = still.q;
         accelerated.qd = still.qd;
         accelerated.qdd(a) += 3;
         accelerated.solve();
         CHECK((accelerated.qdd - still.qdd).norm() > 1e-3 * size);
-        State heavier = State(m, motion);
+        PlatformState heavier = PlatformState(m, motion);
         heavier.q = still.q;
         heavier.qd = still.qd;
         heavier.solve(m.system().forces.with_gravity(Vec3(0, 0, -units::standard_gravity) - 3 * along.at(i)));

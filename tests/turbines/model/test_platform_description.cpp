@@ -36,7 +36,7 @@ PlatformDescription neutrally_buoyant() {
 
 solvers::SecondOrderSystem linear(const System& system) {
     const Vector zero = Vector::Zero(6);
-    return solvers::restrict_to(solvers::linearise(system, {zero, zero, zero}), {0, 1, 2, 5, 4, 3});
+    return solvers::restrict_to(solvers::linearise(system, at_rest(zero)), {0, 1, 2, 5, 4, 3});
 }
 
 }  // namespace
@@ -110,7 +110,8 @@ TEST_CASE("platform alone: heave is the damped oscillation of mass and added mas
     const System rest = still.system();
     Workspace workspace(rest.model);
     const Vector zero = Vector::Zero(6);
-    const double lowest = rest.forces.potential_energy(kinematics(rest.model, zero, workspace), 0, zero, zero);
+    const double lowest =
+        rest.forces.potential_energy({{.q = zero, .qd = zero}, kinematics(rest.model, zero, workspace)});
     CHECK(left - lowest + energy.dissipated == Approx(k * 2 * 2 / 2).epsilon(1e-7));
 }
 

@@ -36,7 +36,7 @@ struct Signal {
 };
 
 // Phases of -360 are not known.
-const std::vector<Signal> at_rest{
+const std::vector<Signal> signals_at_rest{
     {"blade 1 tip flap deflection", 0.4004, 0.4892, 0.3101, {{1, 0.08952, -112.9}, {2, 0.00158, -360}}},
     {"blade 1 tip edge deflection", 0.05080, 0.4951, -0.3934, {{1, 0.4443, -91.21}, {2, 0.00190, -360}}},
     {"blade 1 root My", 1084e3, 1217e3, 950.6e3, {{1, 133.2e3, 179.9}}},
@@ -160,7 +160,7 @@ TEST_CASE("platform: with 4 elements the response is the reference to 1.5 % at t
 
 TEST_CASE("platform: with 16 elements the response is the reference to its own accuracy, 0.05 % or 0.05 mm",
           "[analytic][slow]") {
-    check_signals(last_period(16, false, 130, 3e-7), at_rest, {5e-4, 5e-4, 0.06});
+    check_signals(last_period(16, false, 130, 3e-7), signals_at_rest, {5e-4, 5e-4, 0.06});
     check_signals(last_period(16, true, 70, 3e-7), pitching, {5e-4, 5e-4, 0.06});
 }
 

@@ -273,7 +273,7 @@ TEST_CASE("stations: an external wrench counts inboard of where it acts, as one 
         forces.add_wrench({"load", frame, load, WrenchAxes::base});
         const Stations stations{.blades = places, .tower = {0, 15, 34}};
         const Sampled known = sampled(bare.with_forces(forces), stations, state),
-                      given = sampled(bare, stations, state, {{frame, [&](const ForceInput&) { return load; }}}),
+                      given = sampled(bare, stations, state, {{frame, [&](const StateView&) { return load; }}}),
                       without = sampled(bare, stations, state);
         CAPTURE(bare.tree().frames()[static_cast<std::size_t>(frame.index)].name);
         CHECK(std::abs(known["TwHt1MLxt"] - without["TwHt1MLxt"]) > 1e3);
@@ -290,11 +290,8 @@ TEST_CASE("stations: sampling allocates nothing", "[property]") {
     const MachineState state = in_motion(turbine, 2);
     const System& system = turbine.system();
     Workspace workspace(system.model);
-    const Kinematics kin = kinematics(system.model, state.q, workspace);
-    const JointLoads loads = joint_loads(kin, system.forces, state.qd, state.qdd);
-    const Vector none = Vector::Zero(state.q.size());
-    const ChannelInput input{0,     state.q,   state.qd,  state.qdd, none, kin, system.forces,
-                             loads, no_states, no_states, no_states};
+    const DynamicView input(state, kinematics(system.model, state.q, workspace), system.forces, system.loops);
+    input.loads();
     for (const ChannelGroup& group : turbines::station_channels(turbine, {.blades = places, .tower = {3, 30}})) {
         std::vector<double> values(group.channels.size());
         CHECK(allocations([&] { group.sample(input, values.data()); }) == 0);

@@ -96,13 +96,12 @@ TEST_CASE("stations: between nodes a cantilever's deflection is as close as the 
 TEST_CASE("stations: in a linear model a force at the tower's top bends a station, statically, with its lever",
           "[analytic]") {
     const Cantilever tower(3, Vec3::Zero());
-    solvers::OperatingPoint still{tower.state.q, tower.state.qd, tower.state.qdd};
     const std::vector<solvers::LinearInput> inputs{
         solvers::LinearInput::force("push", tower.turbine.layout().tower_top, Vec3::UnitX(), WrenchAxes::base)};
     solvers::StateSpaceOptions options;
     options.outputs = {"TwHt1MLyt", "TwHt1FLxt", "TwHt2TDxt", "TwHt2RDyt", "TwHt1ALxt"};
     const solvers::LinearModel model =
-        solvers::state_space(tower.turbine.system(), tower.turbine.rotor(), still, inputs,
+        solvers::state_space(tower.turbine.system(), tower.turbine.rotor(), tower.state, inputs,
                              turbines::station_channels(tower.turbine, {.tower = {14, 40}}), options);
     REQUIRE(model.samples.size() == 1);
     const auto& [A, B, C, D] = static_cast<const solvers::StateMatrices&>(model.samples[0]);

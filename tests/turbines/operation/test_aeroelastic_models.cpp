@@ -64,15 +64,15 @@ public:
         const double speed = operation.rotor_speed, period = 2 * pi / std::abs(mode.eigenvalue);
         const solvers::ColemanTransform& T = *solver_->coleman();
         const std::vector<int>& unknowns = solver_->unknowns();
-        const solvers::OperatingPoint steady = steady_.at(0);
-        solvers::OperatingPoint start = steady;
+        const DynamicState steady = steady_.at(0);
+        DynamicState start = steady;
         const ComplexVector rate = mode.eigenvalue * (T.matrix(0) * mode.shape) + speed * (T.matrix(0, 1) * mode.shape);
         start.q(unknowns) += (T.matrix(0) * mode.shape).real();
         start.qd(unknowns) += rate.real();
         if (mode.states.size() > 0) start.s += (T.state_matrix(0) * mode.states).real();
         std::vector<double> times;
         for (int i = 0; i <= steps; ++i) times.push_back(period * i / steps);
-        const std::vector<solvers::DynamicState> moved = run(start, times), undisturbed = run(steady, times);
+        const std::vector<DynamicState> moved = run(start, times), undisturbed = run(steady, times);
         std::vector<Complex> amplitudes;
         for (std::size_t i = 0; i < moved.size(); ++i) {
             const double psi = speed * times[i];
@@ -90,8 +90,7 @@ private:
     static constexpr int steps = 8;
 
     const System& system() const { return point_.machine.system(); }
-    std::vector<solvers::DynamicState> run(const solvers::OperatingPoint& start,
-                                           const std::vector<double>& times) const {
+    std::vector<DynamicState> run(const DynamicState& start, const std::vector<double>& times) const {
         solvers::IntegrationOptions options;
         options.integrate_work = false;
         options.tolerances = {1e-9, 1e-11, 1e-11, 1e-10, 1e-10, 1e-11};
@@ -99,7 +98,7 @@ private:
         const int spin = point_.machine.rotor().spin;
         solvers::Integrator integrator(system(), {{spin, solvers::Motion::constant_rate(0, operation.rotor_speed)}}, 0,
                                        start.q, start.qd, options);
-        std::vector<solvers::DynamicState> out;
+        std::vector<DynamicState> out;
         require_result(integrator.run(times, [&](solvers::Integrator& at) { out.push_back(at.state()); }));
         return out;
     }
@@ -167,19 +166,20 @@ TEST_CASE("aeroelastic models: thrust over the wind of a rotor that does not ben
     const Model& model = still.system().model;
     for (const Row& row : {Row{operation, Wake::quasi_steady, 66.1e3}, Row{operation, Wake::frozen, 68.8e3},
                            Row{high, Wake::quasi_steady, 77.4e3}, Row{high, Wake::frozen, 93.5e3}}) {
-        Vector q = Vector::Zero(model.size()), qd = q;
+        DynamicState state = at_rest(model.size());
+        Vector &q = state.q, &qd = state.qd;
         for (const BodyId drive : still.layout().pitch_drives) q(model.index(drive)) = -row.at.pitch;
         qd(still.rotor().spin) = row.at.rotor_speed;
         Workspace workspace(model);
         const Kinematics kin = kinematics(model, q, workspace);
         MachineAir air = machine.air_at(row.at);
-        if (row.wake == Wake::frozen) air = air.with_frozen_wake(ForceInput{0, q, qd, kin, no_states, no_states});
+        if (row.wake == Wake::frozen) air = air.with_frozen_wake(StateView(state, kin));
         air = air.with_wind_input(wind_input);
         const Turbine windy = air.on(still);
         const Forces& forces = windy.system().forces;
         const auto thrust = [&](double more) {
-            const Vector u = Vector::Constant(1, more);
-            return air.rotor(air.input({0, q, qd, kin, no_states, u}, forces)).force.x();
+            state.u = Vector::Constant(1, more);
+            return air.rotor(air.input({state, kin}, forces)).force.x();
         };
         CAPTURE(row.at.wind, static_cast<int>(row.wake));
         const double slope = (thrust(0.01) - thrust(-0.01)) / 0.02;

@@ -39,7 +39,7 @@ std::map<std::string, double> means(const WindOperation& machine, const WindPoin
     const std::vector<ChannelGroup> groups = channels(turbine);
     solvers::ChannelValues values(turbine.system(), groups);
     std::map<std::string, double> out;
-    for (const solvers::OperatingPoint& state : point.revolution) {
+    for (const DynamicState& state : point.revolution) {
         const std::vector<double>& row = values.at(state);
         std::size_t next = 0;
         for (const ChannelGroup& group : groups)

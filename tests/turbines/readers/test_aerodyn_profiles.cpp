@@ -56,7 +56,7 @@ IeaState iea_state(const Turbine& machine, const MachineAir& air, double speed) 
     REQUIRE(found.converged);
     Workspace workspace(model);
     const Kinematics kin = kinematics(model, found.at.q, workspace);
-    const ForceInput at{0, found.at.q, found.at.qd, kin, found.at.s, found.at.u};
+    const StateView at(found.at, kin);
     const MachineAir::Rotor rotor = air.rotor(air.input(at, windy.system().forces));
     const CardanBeam& blade = windy.layout().blades[0];
     const Pose<double> root = pose(kin, windy.layout().blade_roots[0]), tip = pose(kin, blade.tip());

@@ -37,7 +37,7 @@ CARDAN_VECTORISED void find_rates(std::size_t count, const int* bodies, const Mo
 
 }  // namespace
 
-BodyMotion::BodyMotion(const ForceInput& at, std::span<const int> bodies, std::vector<BodyRate>& rates)
+BodyMotion::BodyMotion(const StateView& at, std::span<const int> bodies, std::vector<BodyRate>& rates)
     : kin_(at.kinematics), rates_(rates) {
     rates_.resize(model().links().size());
     find_rates(bodies.size(), bodies.data(), model().links().data(), kin_.workspace().frame.data(), at.qd.data(),

@@ -40,7 +40,7 @@ class BodyMotion {
 public:
     /// @param bodies  ascending, with all that carry them: only these are asked for
     /// @param rates   memory
-    BodyMotion(const ForceInput& at, std::span<const int> bodies, std::vector<BodyRate>& rates);
+    BodyMotion(const StateView& at, std::span<const int> bodies, std::vector<BodyRate>& rates);
 
     Mat3 rotation(int body) const;
     Vec3 place(int body, const Vec3& in_body) const;

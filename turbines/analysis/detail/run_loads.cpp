@@ -43,7 +43,7 @@ ChannelGroup generator_channels(const GeneratorLoad& generator) {
                        .units = "W",
                        .long_name = "mechanical power taken from the shaft",
                        .frame = "axis of the generator shaft"}};
-    group.sample = [generator](const ChannelInput& in, double* values) {
+    group.sample = [generator](const DynamicView& in, double* values) {
         const double rate = in.qd(in.kinematics.model().index(generator.shaft));
         values[0] = generator.at(rate).torque;
         values[1] = values[0] * generator.ratio * rate;
@@ -89,10 +89,10 @@ ChannelGroup rotor_torque_channels(const RotorTorque& torque, FrameId hub) {
                        .frame = "rotor axis",
                        .point = "hub"},
                       {.name = "rotor torque power", .units = "W", .long_name = "power of the prescribed torque"}};
-    group.sample = [load = load_of(torque, hub), hub](const ChannelInput& in, double* values) {
+    group.sample = [load = load_of(torque, hub), hub](const DynamicView& in, double* values) {
         const auto body = static_cast<std::size_t>(in.kinematics.model().frame(hub).body);
         values[0] = load.at(in.time).moment.z();
-        values[1] = values[0] * pose(in.kinematics, hub).R.col(2).dot(in.loads.motion[body].angular_velocity);
+        values[1] = values[0] * pose(in.kinematics, hub).R.col(2).dot(in.loads().motion[body].angular_velocity);
     };
     return group;
 }

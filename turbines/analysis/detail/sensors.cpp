@@ -16,21 +16,18 @@ Sensors::Sensors(const Turbine& turbine, const std::vector<ChannelGroup>& also)
     values_.resize(count);
 }
 
-void Sensors::measure(const solvers::SampleInput& in) {
-    const solvers::DynamicState& s = in.state;
-    const JointLoads loads = joint_loads({s.time, s.q, s.qd, in.kinematics, s.s, s.u}, in.forces, s.qdd);
-    const ChannelInput at{s.time, s.q, s.qd, s.qdd, s.actuator, in.kinematics, in.forces, loads, s.s, s.s_rate, s.u};
+void Sensors::measure(const DynamicView& in) {
     double* values = values_.data();
     for (const ChannelGroup& group : groups_) {
-        group.sample(at, values);
+        group.sample(in, values);
         values += group.channels.size();
     }
     const FrameId top = turbine_.layout().tower_top;
     const int body = in.kinematics.model().frame(top).body;
-    nodding_ =
-        body < 0
-            ? 0
-            : pose(in.kinematics, top).R.col(1).dot(loads.motion[static_cast<std::size_t>(body)].angular_acceleration);
+    nodding_ = body < 0 ? 0
+                        : pose(in.kinematics, top)
+                              .R.col(1)
+                              .dot(in.loads().motion[static_cast<std::size_t>(body)].angular_acceleration);
 }
 
 double Sensors::at(const std::string& alias) const {

@@ -19,7 +19,7 @@ public:
     /// @param also  channels beside those of any machine
     Sensors(const Turbine& turbine, const std::vector<ChannelGroup>& also);
 
-    void measure(const solvers::SampleInput& in);
+    void measure(const DynamicView& in);
     /// Zero, of what the machine does not have.
     double at(const std::string& alias) const;
     /// Angular acceleration of the nacelle, rad/s^2.

@@ -57,9 +57,9 @@ double torque_of(const MachineAir& air, const Turbine& at_start, const Simulatio
     Workspace workspace(model);
     double sum = 0;
     for (int i = 0; i < azimuths; ++i) {
-        const solvers::OperatingPoint at = state.at(2 * pi * i / azimuths);
+        const DynamicState at = state.at(2 * pi * i / azimuths);
         const Kinematics kin = kinematics(model, at.q, workspace);
-        sum += air.rotor(ForceInput{0, at.q, at.qd, kin, no_states, no_states}).moment.x();
+        sum += air.rotor(StateView(at, kin)).moment.x();
     }
     return sum / azimuths;
 }
@@ -109,7 +109,7 @@ double driving_torque(const Machine& machine, const SimulationSettings& o, const
 std::optional<SimulationState> steady_start(const Turbine& turbine, const SimulationSettings& o, const Report& report) {
     const double speed = *o.rotor_speed, azimuth = *o.azimuth;
     try {
-        const solvers::OperatingPoint at =
+        const DynamicState at =
             speed == 0
                 ? standstill(turbine, azimuth)
                 : steady_rotation(turbine, speed, {.good = good_start, .cancelled = o.cancelled}, report).at(azimuth);

@@ -117,7 +117,7 @@ ElastodynBlade elastodyn_blade(int elements) {
 
 solvers::SecondOrderSystem linearised_at_rest(const System& system) {
     const Vector zero = Vector::Zero(system.model.size());
-    return solvers::restrict_to(solvers::linearise(system, {zero, zero, zero, 0}), system.model.coordinates().free());
+    return solvers::restrict_to(solvers::linearise(system, at_rest(zero)), system.model.coordinates().free());
 }
 
 // Those three shapes on Cardan's elements.
@@ -299,7 +299,7 @@ TEST_CASE("NREL 5 MW machine: multi-blade matrices are the same at every azimuth
     const double speed = 12.1 * rpm;
     solvers::SteadyOptions options;
     options.rotor_speed = speed;
-    solvers::OperatingPoint at = solvers::steady_state(machine.system(), machine.rotor().spin, options).at;
+    DynamicState at = solvers::steady_state(machine.system(), machine.rotor().spin, options).at;
     const std::vector<int> free = machine.system().model.coordinates().free();
     const solvers::ColemanTransform coleman(machine.rotor(), free);
     const auto transformed = [&](double azimuth) {

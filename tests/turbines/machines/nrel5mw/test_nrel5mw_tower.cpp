@@ -52,7 +52,7 @@ solvers::SecondOrderSystem tower_with_head(const RigidInertia& head, double grav
     if (!head.is_massless()) tree.weld(beam.tip(), head, "head");
     const System system(tree, forces);
     const Vector zero = Vector::Zero(system.model.size());
-    return solvers::restrict_to(solvers::linearise(system, {zero, zero, zero, 0}), system.model.coordinates().free());
+    return solvers::restrict_to(solvers::linearise(system, at_rest(zero)), system.model.coordinates().free());
 }
 
 // First, third ... frequency: those of one plane (both are the same).

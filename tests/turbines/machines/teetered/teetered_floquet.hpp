@@ -72,7 +72,7 @@ inline HalfTurnFloquet floquet(const turbines::Turbine& machine, double rotor_sp
     std::vector<int> unknowns;
     for (int i = 0; i < n; ++i)
         if (i != spin) unknowns.push_back(i);
-    solvers::OperatingPoint point{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0};
+    DynamicState point = at_rest(n);
     if (steady_state.size() > 0) point.q = steady_state;
     point.qd(spin) = rotor_speed;
     solvers::Lineariser lineariser(system);

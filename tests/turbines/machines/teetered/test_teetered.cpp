@@ -203,7 +203,7 @@ TEST_CASE("teetered machine: half a revolution on, blades exchanged and teeter r
         const Kinematics kin = kinematics(system.model, q, workspace);
         Vector tau(n), Q(n);
         inverse_dynamics<double>(kin, qd, qdd, tau);
-        system.forces.generalised_forces(kin, 0, q, qd, Q);
+        system.forces.generalised_forces({{.q = q, .qd = qd}, kin}, Q);
         return Vector(tau - Q);
     };
     Random random(11);
@@ -227,7 +227,7 @@ TEST_CASE("teetered machine: springs, dampers and gravity are where the descript
         const Vector zero = Vector::Zero(model.size());
         Workspace workspace(model);
         ForceDerivatives out;
-        machine.system().forces.derivatives(kinematics(model, zero, workspace), 0, zero, zero, out);
+        machine.system().forces.derivatives({{.q = zero, .qd = zero}, kinematics(model, zero, workspace)}, out);
         return out;
     };
     const Turbine machine = assemble(d, options);
@@ -250,7 +250,8 @@ TEST_CASE("teetered machine: springs, dampers and gravity are where the descript
     for (const PartMass& part : masses_by_part(on_ground.tree()))
         if (part.part != "tower") moment += part.mass * part.centre.z();
     const Kinematics kin = kinematics(on_ground.system().model, zero, workspace);
-    CHECK(on_ground.system().forces.potential_energy(kin, 0, zero, zero) == Approx(9.81 * moment).epsilon(1e-12));
+    CHECK(on_ground.system().forces.potential_energy({{.q = zero, .qd = zero}, kin}) ==
+          Approx(9.81 * moment).epsilon(1e-12));
 }
 
 TEST_CASE("teetered machine: a rigid tower has no coordinates, its mass stays in the summary", "[property]") {

@@ -22,7 +22,7 @@ BladeFrequencies blade_frequencies(const AssemblyOptions& options, double rotor_
     const auto blade = turbines::isolated_blade(turbines::teetered_description(), options);
     const Model& model = blade.system().model;
     const auto n = model.size();
-    solvers::OperatingPoint at{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n), 0};
+    DynamicState at = at_rest(n);
     at.qd(blade.rotor().spin) = rotor_speed;
     const auto system = solvers::restrict_to(solvers::linearise(blade.system(), at), model.coordinates().free());
     BladeFrequencies found;

@@ -79,8 +79,7 @@ TEST_CASE("teetered machine: yaw, teeter and six motions of the tower top move b
     const TeeteredHead head = head_of(d, speed);
 
     for (const double psi : {0.0, 0.5, 1.9, 3.6}) {
-        solvers::OperatingPoint at{Vector::Zero(model.size()), Vector::Zero(model.size()), Vector::Zero(model.size()),
-                                   0};
+        DynamicState at = at_rest(model.size());
         at.q(machine.rotor().spin) = psi;
         at.qd(machine.rotor().spin) = speed;
         const solvers::Linearisation linear = solvers::linearise(machine.system(), at);

@@ -73,7 +73,7 @@ TEST_CASE("teetered machine in operation: a mode by Floquet theory grows and dec
     const double step = 1e-6 * mode->period;
     const auto motion = [&](double t) { return ComplexVector(std::exp(mode->exponent * t) * mode->shape(t)); };
     const double unit = scale / std::abs(motion(0)(row));
-    const OperatingPoint start = state.at(0);
+    const DynamicState start = state.at(0);
     Vector q = start.q, qd = start.qd;
     const ComplexVector rate = (motion(step) - motion(-step)) / (2 * step);
     for (std::size_t i = 0; i < unknowns.size(); ++i) {

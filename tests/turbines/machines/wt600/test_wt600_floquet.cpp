@@ -23,7 +23,7 @@ Eigen::VectorXcd multipliers(const turbines::Turbine& machine, const std::vector
     const auto steady = solvers::steady_state(machine.system(), rotor.spin, options);
     REQUIRE(steady.converged);
     const auto at_azimuth = [&](double psi) {
-        solvers::OperatingPoint at = steady.at;
+        DynamicState at = steady.at;
         at.q(rotor.spin) = psi;
         return solvers::restrict_to(solvers::linearise(machine.system(), at), unknowns, rotor.spin);
     };

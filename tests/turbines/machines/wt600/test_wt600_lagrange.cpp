@@ -39,7 +39,7 @@ TEST_CASE("600 kW machine: mass, gyroscopic and inertial stiffness matrices are 
     const int n = model.size();
     // Deflected, spinning, yawing, pitching, with the rotor and the tilt joint accelerated.
     Random random(7);
-    solvers::OperatingPoint at{random_state(random, n, 0.02), Vector::Zero(n), Vector::Zero(n), 0};
+    DynamicState at = at_rest(random_state(random, n, 0.02));
     const Sparse qd{{machine.rotor().spin, 27 * rpm}, {model.index("yaw"), 0.2}, {model.index("blade 2 pitch"), -0.3}};
     const Sparse qdd{{machine.rotor().spin, 0.5}, {model.index("tilt"), 1.0}};
     for (const auto& [i, value] : qd) at.qd(i) = value;
@@ -75,12 +75,12 @@ TEST_CASE("600 kW machine: elastic and damping matrices give the forces of the s
     const int n = system.model.size();
     Random random(8);
     const Vector q = random_state(random, n, 0.02), qd = random_state(random, n), zero = Vector::Zero(n);
-    const solvers::Linearisation lin = solvers::linearise(system, {q, qd, zero, 0});
+    const solvers::Linearisation lin = solvers::linearise(system, {{.q = q, .qd = qd}, zero});
     Workspace workspace(system.model);
     const Kinematics kin = kinematics(system.model, q, workspace);
     Vector at_rest(n), moving(n);
-    system.forces.generalised_forces(kin, 0, q, zero, at_rest);
-    system.forces.generalised_forces(kin, 0, q, qd, moving);
+    system.forces.generalised_forces({{.q = q, .qd = zero}, kin}, at_rest);
+    system.forces.generalised_forces({{.q = q, .qd = qd}, kin}, moving);
     CHECK((lin.elastic * q + at_rest).norm() < 1e-12 * at_rest.norm());
     CHECK((lin.damping * qd + moving - at_rest).norm() < 1e-12 * (moving - at_rest).norm());
     CHECK((lin.elastic - lin.elastic.transpose()).norm() == 0);

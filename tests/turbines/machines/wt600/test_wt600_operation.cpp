@@ -76,7 +76,7 @@ TEST_CASE("wt600 operation: with the converter, rated operation is an equilibriu
         const Kinematics kin = kinematics(system.model, state.at.q, workspace);
         Vector Q(n);
         Matrix g(n, n);
-        system.forces.generalised_forces(kin, 0, state.at.q, state.at.qd, Q);
+        system.forces.generalised_forces({state.at, kin}, Q);
         metric(kin, g);
         return Q(spin) / g(spin, spin);
     };
@@ -90,7 +90,7 @@ TEST_CASE("wt600 operation: without grid, brake and wind it is the machine with 
     const Wt600Operation machine = wt600_operation(options);
     const Turbine plain = wt600(wt600_paper_assembly());
     const Vector zero = Vector::Zero(plain.system().model.size());
-    const solvers::OperatingPoint rest{zero, zero, zero, 0};
+    const DynamicState rest = at_rest(zero);
     const auto a = solvers::linearise(machine.turbine.system(), rest), b = solvers::linearise(plain.system(), rest);
     CHECK((a.elastic - b.elastic).norm() == Approx(0).margin(1e-12 * b.elastic.norm()));
     CHECK((a.damping - b.damping).norm() == Approx(0).margin(1e-12 * b.damping.norm()));
@@ -164,7 +164,8 @@ TEST_CASE("wt600 operation: a command turns all blades toward feather, against t
     Workspace workspace(model);
     Vector Q(model.size());
     const auto force = [&](double t) {
-        machine.turbine.system().forces.generalised_forces(kinematics(model, q, workspace), t, q, qd, Q);
+        machine.turbine.system().forces.generalised_forces(
+            {{.time = t, .q = q, .qd = qd}, kinematics(model, q, workspace)}, Q);
         return Q(model.index("blade 2 pitch"));
     };
     const double still = force(0);
@@ -172,8 +173,7 @@ TEST_CASE("wt600 operation: a command turns all blades toward feather, against t
     CHECK(force(0) == Approx(still).margin(1e-6));
     CHECK(force(3) < still - 0.1 * 5e7);
     CHECK(machine.pitch->at(2).rate == Approx(8 * units::degree));
-    const RotorCurve::Value there =
-        machine.rotor.value({0, q, qd, kinematics(model, q, workspace), no_states, no_states});
+    const RotorCurve::Value there = machine.rotor.value({{.q = q, .qd = qd}, kinematics(model, q, workspace)});
     CHECK(there.torque == Approx(machine.rotor.curve.torque(11.86, 0.0, 0.0, 0.3)).epsilon(1e-12));
 }
 

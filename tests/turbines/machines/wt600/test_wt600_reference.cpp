@@ -91,7 +91,7 @@ TEST_CASE("600 kW machine: a gearbox that spun with the high-speed shaft's twist
     const turbines::Turbine machine = turbines::wt600(undamped(3));
     const CoordinateTable& table = machine.system().model.coordinates();
     const Vector zero = Vector::Zero(table.size());
-    solvers::Linearisation lin = solvers::linearise(machine.system(), {zero, zero, zero, 0});
+    solvers::Linearisation lin = solvers::linearise(machine.system(), at_rest(zero));
     const int generator = table.index("generator azimuth"), twist = table.index("high-speed shaft twist");
     const auto torsion = [&] {
         const solvers::ColemanTransform coleman(machine.rotor(), table.free());
