@@ -22,7 +22,7 @@ public:
         : turbine_(turbines::nrel5mw()),
           air_(turbines::MachineAir(turbine_, turbines::nrel5mw_aero_blade(),
                                     SteadyWind{.speed = 10, .shear = Shear::power, .exponent = 0.2})
-                   .field()),
+                   .element()),
           workspace_(model()),
           wrenches_(air_.points.size()),
           dynamics_(model()),
@@ -33,11 +33,14 @@ public:
         state_.qd(turbine_.rotor().spin) = 1.1;
         Q_ = qdd_ = actuator_ = Vector::Zero(n);
         by_q_ = by_qd_ = Matrix::Zero(n, n);
+        columns_.resize(n, 0);
+        rows_.resize(0, n);
         new_input();
     }
 
     void forces_of_air() {
-        air_.wrenches(input(), wrenches_);
+        ElementForces out{Q_, none_, wrenches_};
+        air_.evaluate(input(), out);
         benchmark::DoNotOptimize(wrenches_.data());
     }
     void forward_dynamics() {
@@ -47,7 +50,8 @@ public:
         benchmark::DoNotOptimize(qdd_.data());
     }
     void derivatives_of_air() {
-        air_.jacobian(input(), by_q_, by_qd_);
+        ElementJacobian out{by_q_, by_qd_, columns_, columns_, columns_, rows_, rows_, nothing_, nothing_, nothing_};
+        air_.jacobian(input(), out);
         benchmark::DoNotOptimize(by_q_.data());
     }
     void derivatives_of_dynamics() {
@@ -66,7 +70,7 @@ private:
     }
 
     turbines::Turbine turbine_;
-    WrenchField air_;
+    ForceElement air_;
     Workspace workspace_;
     std::optional<Kinematics> kin_;
     std::vector<Wrench> wrenches_;
@@ -75,7 +79,8 @@ private:
     ForceDerivatives forces_;
     State state_;
     Vector qdd_, Q_, actuator_;
-    Matrix by_q_, by_qd_;
+    Vector none_;
+    Matrix by_q_, by_qd_, columns_, rows_, nothing_;
 };
 
 void beside(benchmark::State& state, void (Machine::*air)(), void (Machine::*structure)()) {

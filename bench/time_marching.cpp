@@ -114,23 +114,23 @@ turbines::Turbine with_states(const turbines::Turbine& turbine, int states) {
     int number = 0;
     for (const std::vector<int>& blade : turbine.rotor().blades)
         for (std::size_t first = 0; first + of_element <= blade.size(); first += of_element) {
-            StateElement lags{.name = text("lags ", ++number)};
+            ForceElement lags{.name = text("lags ", ++number)};
             for (std::size_t i = 0; i < of_element; ++i)
                 lags.coordinates.push_back(bodies[static_cast<std::size_t>(blade[first + i])]);
             for (int i = 0; i < states; ++i)
                 lags.states.push_back({.name = text("lag ", number, " ", i), .unit = "rad/s", .scale = 1});
-            lags.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
-                for (Eigen::Index i = 0; i < f.size(); ++i) f(i) = 20 * (in.qd(i % Q.size()) - in.s(i));
-                Q = -10 * in.s.head(Q.size());
+            lags.evaluate = [](const ElementView& in, ElementForces& out) {
+                for (Eigen::Index i = 0; i < out.f.size(); ++i) out.f(i) = 20 * (in.qd(i % out.Q.size()) - in.s(i));
+                out.Q = -10 * in.s.head(out.Q.size());
             };
-            lags.jacobian = [](const StateInput& in, StateJacobian& d) {
+            lags.jacobian = [](const ElementView& in, ElementJacobian& d) {
                 for (Eigen::Index i = 0; i < in.s.size(); ++i) {
                     d.f_qd(i, i % in.qd.size()) = 20;
                     d.f_s(i, i) = -20;
                 }
                 d.Q_s.leftCols(in.qd.size()).diagonal().setConstant(-10);
             };
-            forces.add_states(lags);
+            forces.add_element(lags);
         }
     return turbine.with_forces(forces, "lags on the blades");
 }

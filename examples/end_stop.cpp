@@ -19,7 +19,7 @@ int main() try {
     const JointedFrame wheel = add_joint(tree, Tree::base(), JointKind::revolute, Axis::z, "wheel", {"wheel"});
     tree.weld(wheel.frame, solid_cylinder(mass, radius, Vec3(0, 0, -0.1), Vec3(0, 0, 0.1)));
     ForceSet forces;
-    forces.add_user(end_stop_force({.coordinate = wheel.body, .limit = limit, .stiffness = k, .depth = w}));
+    forces.add_element(end_stop_force({.coordinate = wheel.body, .limit = limit, .stiffness = k, .depth = w}));
     const System system(tree, forces);
 
     solvers::IntegrationOptions options;

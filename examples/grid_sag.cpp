@@ -29,7 +29,7 @@ int main() try {
                                          .running_speed = speed,
                                          .running_torque = torque};
     ForceSet forces;
-    forces.add_states(synchronous_generator(generator));
+    forces.add_element(synchronous_generator(generator));
     const System system(tree, forces);
     solvers::Integrator run(system, {}, 0, Vector{{0.0}}, Vector{{speed}});
     solvers::Recorder recorder(run, {synchronous_generator_channels(generator)});

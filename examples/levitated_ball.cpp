@@ -34,7 +34,7 @@ int main() {
     });
     ForceSet forces;
     forces.set_gravity({0, 0, g});  // z downwards
-    forces.add_states(magnet.element());
+    forces.add_element(magnet.element());
     const System system(tree, forces);
 
     solvers::SteadyOptions start;

@@ -27,7 +27,7 @@ int main() try {
     motor.add_magnet("armature", arm.body, [](double q) { return Curve{k * q, k, 0}; });
     ForceSet forces;
     forces.set_gravity({0, 0, -g});
-    forces.add_states(motor.element());
+    forces.add_element(motor.element());
     const System system(tree, forces);
 
     const solvers::SteadyState end = solvers::steady_state(system, -1);

@@ -27,7 +27,7 @@ int main() try {
         add_joint(tree, Tree::base(), JointKind::revolute, Axis::x, "shaft", {"generator"}, CoordinateRole::driven);
     const Circuit machine = three_phase_machine({.shaft = shaft.body, .circuit = c, .grid = grid, .open_phase = 2});
     ForceSet forces;
-    forces.add_states(machine.element());
+    forces.add_element(machine.element());
     const System system(tree, forces);
 
     std::printf("   slip   mean torque   by formula   at 120 Hz   by formula   largest other harmonic   (N m)\n");

@@ -14,16 +14,16 @@ int main() {
     const JointedFrame slide = add_joint(tree, Tree::base(), JointKind::prismatic, Axis::x, "slide", {"mass"});
     tree.weld(slide.frame, {.mass = mass});
 
-    UserForce spring;
-    spring.name = "hardening spring";
-    spring.force = [](const StateView& at, VectorOut Q) { Q(0) += -k * at.q(0) - c * std::pow(at.q(0), 3); };
-    spring.jacobian = [](const StateView& at, MatrixOut dQ_dq, const MatrixOut&) {
-        dQ_dq(0, 0) += -k - 3 * c * at.q(0) * at.q(0);
+    ForceElement spring{.name = "hardening spring", .coordinates = {slide.body}, .elastic = true};
+    spring.evaluate = [](const ElementView& at, ElementForces& out) {
+        out.Q(0) = -k * at.q(0) - c * std::pow(at.q(0), 3);
     };
-    spring.energy = [](const StateView& at) { return k * std::pow(at.q(0), 2) / 2 + c * std::pow(at.q(0), 4) / 4; };
-    spring.elastic = true;
+    spring.jacobian = [](const ElementView& at, ElementJacobian& d) { d.Q_q(0, 0) = -k - 3 * c * at.q(0) * at.q(0); };
+    spring.potential = [](const ElementView& at) {
+        return k * std::pow(at.q(0), 2) / 2 + c * std::pow(at.q(0), 4) / 4;
+    };
     ForceSet forces;
-    forces.add_user(spring);
+    forces.add_element(spring);
     const System system(tree, forces);
 
     // Let go at the amplitude; it comes back after a period, when its speed falls through zero.

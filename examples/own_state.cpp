@@ -14,18 +14,18 @@ int main() {
     const JointedFrame slide = add_joint(tree, Tree::base(), JointKind::prismatic, Axis::x, "slide", {"mass"});
     tree.weld(slide.frame, {.mass = mass});
 
-    StateElement bush{
+    ForceElement bush{
         .name = "bush", .states = {{.name = "creeping force", .unit = "N", .scale = 10}}, .coordinates = {slide.body}};
-    bush.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q(0) = -in.s(0);
-        f(0) = k * in.qd(0) - k / c * in.s(0);
+    bush.evaluate = [](const ElementView& in, ElementForces& out) {
+        out.Q(0) = -in.s(0);
+        out.f(0) = k * in.qd(0) - k / c * in.s(0);
     };
-    bush.power = [](const StateInput& in) {
-        return StatePower{.stored = in.s(0) * in.s(0) / (2 * k), .dissipated = in.s(0) * in.s(0) / c};
+    bush.power = [](const ElementView& in) {
+        return ElementPower{.stored = in.s(0) * in.s(0) / (2 * k), .dissipated = in.s(0) * in.s(0) / c};
     };
     ForceSet forces;
     forces.add_spring("spring", slide.body, k0);
-    forces.add_states(bush);
+    forces.add_element(bush);
     const System system(tree, forces);
 
     const Vector zero = Vector::Zero(1);

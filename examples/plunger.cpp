@@ -27,7 +27,7 @@ int main() try {
     coil.vary("coil", "coil", slide.body, inductance);
     ForceSet forces;
     forces.add_spring("spring", slide.body, k, d);
-    forces.add_states(coil.element());
+    forces.add_element(coil.element());
     const System system(tree, forces);
 
     solvers::Integrator run(system, {}, 0, Vector{{0.0}}, Vector{{0.0}});

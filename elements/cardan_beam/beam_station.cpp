@@ -121,12 +121,6 @@ bool BeamStation::is_before(const Vec3& place, const Kinematics& kin) const {
     return (element_axes(kin).inverse() * place)(0) <= x_ - tolerance_;
 }
 
-bool BeamStation::is_inboard_of(FrameId frame, const Kinematics& kin) const {
-    const Model& model = kin.model();
-    if (holds(frame, model)) return !is_before(cardan::pose(kin, frame).p, kin);
-    return model.precedes(model.index(joint_), model.frame(frame).body);
-}
-
 Vec6 BeamStation::inertia_less_weight(const Placement& axes, const BodyMotion& motion, const Vec3& gravity) const {
     const Vec6 load = share_ * of_body(whole_, axes, motion, gravity);
     return share_ == 1 ? load : Vec6(load + of_masses(rest_, axes, motion, gravity));
@@ -148,7 +142,7 @@ Wrench BeamStation::load(const Kinematics& kin, const Forces& forces, const Join
     };
     for (const FrameLoad& load : forces.loads())
         if (holds(load.frame, model)) add_load(cardan::pose(kin, load.frame).p, forces.at_frame(load, kin, loads.time));
-    for_each_point(forces, loads, [&](const FieldPoint& point, const Wrench& load) {
+    for_each_point(forces, loads, [&](const FramePoint& point, const Wrench& load) {
         if (holds(point.frame, model)) add_load(place_of(kin, point), load);
     });
     return sum;

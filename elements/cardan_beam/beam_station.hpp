@@ -30,8 +30,6 @@ public:
     /// Force and moment about the point of the reference line that the outboard part exerts on the inboard part, base
     /// axes, by equilibrium: see equilibrium_loads().
     Wrench load(const Kinematics& kin, const Forces& forces, const JointLoads& loads) const;
-    /// True if what acts at the frame acts outboard of the section.
-    bool is_inboard_of(FrameId frame, const Kinematics& kin) const;
 
 private:
     Placement element_axes(const Kinematics& kin) const;

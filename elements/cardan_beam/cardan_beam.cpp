@@ -200,7 +200,8 @@ void add_elastic_law(ForceSet& forces, const CardanBeam& beam, const std::string
                             {}});
         if (!linear) elements.push_back({element.bodies, element.kinds, element.stiffness, element.tilt});
     }
-    if (!elements.empty()) forces.add_user(hinge_law_force(name + " hinges", options.hinge_law, std::move(elements)));
+    if (!elements.empty())
+        forces.add_element(hinge_law_force(name + " hinges", options.hinge_law, std::move(elements)));
 }
 
 // What is lost without free extension.

@@ -211,39 +211,41 @@ Vector hinge_forces(const HingeLaw& law, const HingeLawElement& element, const V
     return respond(law, element, q).force;
 }
 
-UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vector<HingeLawElement> elements) {
-    // Calls f(indices in the model, response) for every element.
-    const auto each = [law, elements = std::move(elements)](const StateView& at, const auto& f) {
-        const Model& model = at.kinematics.model();
-        for (const HingeLawElement& element : elements) {
-            const auto n = std::ssize(element.bodies);
-            std::array<int, 6> index{};
-            Coordinates q(n);
-            for (Eigen::Index i = 0; i < n; ++i) {
-                entry(index, i) = model.index(entry(element.bodies, i));
-                q(i) = at.q(entry(index, i));
-            }
-            f(index, respond(law, element, q));
+ForceElement hinge_law_force(const std::string& name, const HingeLaw& law, std::vector<HingeLawElement> elements) {
+    ForceElement force{.name = name, .elastic = true};
+    std::vector<std::vector<int>> places;  // of the coordinates of each element among those of the force
+    for (const HingeLawElement& element : elements) {
+        std::vector<int>& own = places.emplace_back();
+        for (const BodyId body : element.bodies) {
+            const auto known = std::ranges::find(force.coordinates, body.index, &BodyId::index);
+            own.push_back(static_cast<int>(known - force.coordinates.begin()));
+            if (known == force.coordinates.end()) force.coordinates.push_back(body);
+        }
+    }
+    // Calls f(places, response) for every element.
+    const auto each = [law, elements = std::move(elements), places = std::move(places)](const ElementView& at,
+                                                                                        const auto& f) {
+        for (std::size_t k = 0; k < elements.size(); ++k) {
+            Coordinates q(std::ssize(places[k]));
+            for (Eigen::Index i = 0; i < q.size(); ++i) q(i) = at.q(entry(places[k], i));
+            f(places[k], respond(law, elements[k], q));
         }
     };
-    UserForce force;
-    force.name = name;
-    force.elastic = true;
-    force.force = [each](const StateView& at, VectorOut Q) {
-        each(at, [&](const std::array<int, 6>& index, const Response& r) {
-            for (Eigen::Index i = 0; i < r.force.size(); ++i) Q(entry(index, i)) -= r.force(i);
+    force.evaluate = [each](const ElementView& at, ElementForces& out) {
+        each(at, [&](const std::vector<int>& own, const Response& r) {
+            for (Eigen::Index i = 0; i < r.force.size(); ++i) out.Q(entry(own, i)) -= r.force(i);
         });
     };
-    force.jacobian = [each](const StateView& at, MatrixOut dQ_dq, const MatrixOut&) {
-        each(at, [&](const std::array<int, 6>& index, const Response& r) {
+    force.jacobian = [each](const ElementView& at, ElementJacobian& d) {
+        each(at, [&](const std::vector<int>& own, const Response& r) {
             for (Eigen::Index i = 0; i < r.force.size(); ++i)
                 for (Eigen::Index j = 0; j < r.force.size(); ++j)
-                    dQ_dq(entry(index, i), entry(index, j)) -= r.stiffness(i, j);
+                    d.Q_q(entry(own, i), entry(own, j)) -= r.stiffness(i, j);
         });
     };
-    force.energy = [each](const StateView& at) {
+    force.potential = [each](const ElementView& at) {
         double sum = 0;
-        each(at, [&](const std::array<int, 6>&, const Response& r) { sum += r.energy; });
+        each(at, [&](const std::vector<int>&, const Response& r) { sum += r.energy; });
         return sum;
     };
     return force;

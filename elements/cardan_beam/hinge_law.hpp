@@ -65,6 +65,6 @@ Vector hinge_forces(const HingeLaw& law, const HingeLawElement& element, const V
 
 /// The elastic forces Q = -dV/dq of the elements of a beam as one force, with exact Jacobian and energy. Without a law
 /// for large angles (y = q) an element costs a few products of 6 x 6 matrices; nothing is allocated.
-UserForce hinge_law_force(const std::string& name, const HingeLaw& law, std::vector<HingeLawElement> elements);
+ForceElement hinge_law_force(const std::string& name, const HingeLaw& law, std::vector<HingeLawElement> elements);
 
 }  // namespace cardan

@@ -45,7 +45,7 @@ struct Follower {
         double value, by_p, by_v, by_demand;
     };
     // p'
-    Rate rate(const StateInput& in, double wanted) const {
+    Rate rate(const ElementView& in, double wanted) const {
         if (first_order()) {
             const ControlSignal::Point target = own.positions(wanted),
                                        limited = own.rates((target.value - in.s(0)) / own.time_constant);
@@ -56,18 +56,18 @@ struct Follower {
         return {limited.value, 0, limited.slope, 0};
     }
     // v' of second order
-    Rate acceleration(const StateInput& in, double wanted) const {
+    Rate acceleration(const ElementView& in, double wanted) const {
         const ControlSignal::Point target = own.positions(wanted);
         const double w = own.frequency, c = 2 * own.damping * w;
         return {w * w * (target.value - in.s(0)) - c * in.s(1), -w * w, -c, w * w * target.slope};
     }
-    void rates(const StateInput& in, VectorOut& f) const {
+    void rates(const ElementView& in, VectorOut& f) const {
         Gradient gradient;
         const double wanted = demand.value(in, gradient);
         f(0) = rate(in, wanted).value;
         if (!first_order()) f(1) = acceleration(in, wanted).value;
     }
-    void jacobian(const StateInput& in, StateJacobian& d) const {
+    void jacobian(const ElementView& in, ElementJacobian& d) const {
         Gradient gradient;
         const double wanted = demand.value(in, gradient);
         const auto add = [&](Eigen::Index row, const Rate& rate) {
@@ -89,9 +89,9 @@ void check(const Actuator& block) {
     require_positive(here, "damping ratio", block.damping);
 }
 
-StateElement states_of(const Actuator& block) {
+ForceElement states_of(const Actuator& block) {
     check(block);
-    StateElement element{.name = block.name.name, .states = {state_of(block.name)}};
+    ForceElement element{.name = block.name.name, .states = {state_of(block.name)}};
     if (block.time_constant == 0) element.states.push_back(rate_of(block.name, block.frequency));
     return element;
 }
@@ -100,14 +100,14 @@ StateElement states_of(const Actuator& block) {
 
 ControlBlock low_pass(const LowPass& block) {
     require_positive(where("low pass", block.name), "time constant [s]", block.time_constant);
-    StateElement element{.name = block.name.name, .states = {state_of(block.name)}};
+    ForceElement element{.name = block.name.name, .states = {state_of(block.name)}};
     const ControlWire input(block.input, element);
     const double tau = block.time_constant;
-    element.rates = [input, tau](const StateInput& in, const VectorOut&, VectorOut f) {
+    element.evaluate = [input, tau](const ElementView& in, ElementForces& out) {
         Gradient gradient;
-        f(0) = (input.value(in, gradient) - in.s(0)) / tau;
+        out.f(0) = (input.value(in, gradient) - in.s(0)) / tau;
     };
-    element.jacobian = [input, tau](const StateInput& in, StateJacobian& d) {
+    element.jacobian = [input, tau](const ElementView& in, ElementJacobian& d) {
         Gradient gradient;
         (void)input.value(in, gradient);
         d.f_s(0, 0) -= 1 / tau;
@@ -117,13 +117,13 @@ ControlBlock low_pass(const LowPass& block) {
 }
 
 ControlBlock integral(const Integral& block) {
-    StateElement element{.name = block.name.name, .states = {state_of(block.name, StateKind::integrator)}};
+    ForceElement element{.name = block.name.name, .states = {state_of(block.name, StateKind::integrator)}};
     const ControlWire input(block.input, element);
-    element.rates = [input](const StateInput& in, const VectorOut&, VectorOut f) {
+    element.evaluate = [input](const ElementView& in, ElementForces& out) {
         Gradient gradient;
-        f(0) = input.value(in, gradient);
+        out.f(0) = input.value(in, gradient);
     };
-    element.jacobian = [input](const StateInput& in, StateJacobian& d) {
+    element.jacobian = [input](const ElementView& in, ElementJacobian& d) {
         Gradient gradient;
         (void)input.value(in, gradient);
         input.add_to_f(d, 0, 1, gradient);
@@ -136,14 +136,14 @@ ControlBlock second_order_filter(const SecondOrderFilter& block) {
     require_positive(here, "frequency [rad/s]", block.frequency);
     require_positive(here, "damping ratio", block.damping);
     const double w = block.frequency, c = 2 * block.damping * w;
-    StateElement element{.name = block.name.name, .states = {state_of(block.name), rate_of(block.name, w)}};
+    ForceElement element{.name = block.name.name, .states = {state_of(block.name), rate_of(block.name, w)}};
     const ControlWire input(block.input, element);
-    element.rates = [=](const StateInput& in, const VectorOut&, VectorOut f) {
+    element.evaluate = [=](const ElementView& in, ElementForces& out) {
         Gradient gradient;
-        f(0) = in.s(1);
-        f(1) = w * w * (input.value(in, gradient) - in.s(0)) - c * in.s(1);
+        out.f(0) = in.s(1);
+        out.f(1) = w * w * (input.value(in, gradient) - in.s(0)) - c * in.s(1);
     };
-    element.jacobian = [=](const StateInput& in, StateJacobian& d) {
+    element.jacobian = [=](const ElementView& in, ElementJacobian& d) {
         Gradient gradient;
         (void)input.value(in, gradient);
         d.f_s(0, 1) += 1;
@@ -168,11 +168,11 @@ ControlBlock pi_controller(const PiController& block) {
 }
 
 ControlBlock actuator(const Actuator& block) {
-    StateElement element = states_of(block);
+    ForceElement element = states_of(block);
     const ControlWire demand(block.demand, element);
     const Follower follower{block, demand};
-    element.rates = [follower](const StateInput& in, const VectorOut&, VectorOut f) { follower.rates(in, f); };
-    element.jacobian = [follower](const StateInput& in, StateJacobian& d) { follower.jacobian(in, d); };
+    element.evaluate = [follower](const ElementView& in, ElementForces& out) { follower.rates(in, out.f); };
+    element.jacobian = [follower](const ElementView& in, ElementJacobian& d) { follower.jacobian(in, d); };
     return {std::move(element), signal::state(block.name.name)};
 }
 
@@ -183,16 +183,16 @@ ControlBlock position_actuator(const Actuator& block, BodyId coordinate, double 
     require_not_negative(here, "damping of the drive", drive_damping);
     if (sense != 1 && sense != -1) throw InputError(here, "sense", sense, "1 or -1");
     if (!std::isfinite(zero)) throw InputError(here, "position at the coordinate's zero", zero, "finite");
-    StateElement element = states_of(block);
+    ForceElement element = states_of(block);
     element.coordinates = {coordinate};
     const ControlWire demand(block.demand, element);
     const Follower follower{block, demand};
     const double k = stiffness, c = drive_damping;
-    element.rates = [=](const StateInput& in, VectorOut Q, VectorOut f) {
-        follower.rates(in, f);
-        Q(0) = -k * (in.q(0) - sense * (in.s(0) - zero)) - c * (in.qd(0) - sense * f(0));
+    element.evaluate = [=](const ElementView& in, ElementForces& out) {
+        follower.rates(in, out.f);
+        out.Q(0) = -k * (in.q(0) - sense * (in.s(0) - zero)) - c * (in.qd(0) - sense * out.f(0));
     };
-    element.jacobian = [=](const StateInput& in, StateJacobian& d) {
+    element.jacobian = [=](const ElementView& in, ElementJacobian& d) {
         follower.jacobian(in, d);
         Gradient gradient;
         const Follower::Rate rate = follower.rate(in, demand.value(in, gradient));
@@ -203,39 +203,39 @@ ControlBlock position_actuator(const Actuator& block, BodyId coordinate, double 
         demand.add_to_Q(d, 0, sense * c * rate.by_demand, gradient);
     };
     // What the spring holds, what the motor puts in behind it, what the damper takes.
-    element.power = [=](const StateInput& in) {
+    element.power = [=](const ElementView& in) {
         Gradient gradient;
         const double stretch = in.q(0) - sense * (in.s(0) - zero),
                      rate = sense * follower.rate(in, demand.value(in, gradient)).value, slip = in.qd(0) - rate,
                      force = -k * stretch - c * slip;
-        return StatePower{k * stretch * stretch / 2, force * rate, c * slip * slip};
+        return ElementPower{k * stretch * stretch / 2, force * rate, c * slip * slip};
     };
     return {std::move(element), signal::state(block.name.name)};
 }
 
 ControlBlock force_actuator(const Actuator& block, BodyId coordinate, double factor) {
-    StateElement element = states_of(block);
+    ForceElement element = states_of(block);
     element.coordinates = {coordinate};
     const Follower follower{block, ControlWire(block.demand, element)};
-    element.rates = [=](const StateInput& in, VectorOut Q, VectorOut f) {
-        follower.rates(in, f);
-        Q(0) = factor * in.s(0);
+    element.evaluate = [=](const ElementView& in, ElementForces& out) {
+        follower.rates(in, out.f);
+        out.Q(0) = factor * in.s(0);
     };
-    element.jacobian = [=](const StateInput& in, StateJacobian& d) {
+    element.jacobian = [=](const ElementView& in, ElementJacobian& d) {
         follower.jacobian(in, d);
         d.Q_s(0, 0) += factor;
     };
     return {std::move(element), signal::state(block.name.name)};
 }
 
-StateElement signal_force(std::string name, const ControlSignal& signal, BodyId coordinate, double factor) {
-    StateElement element{.name = std::move(name), .coordinates = {coordinate}};
+ForceElement signal_force(std::string name, const ControlSignal& signal, BodyId coordinate, double factor) {
+    ForceElement element{.name = std::move(name), .coordinates = {coordinate}};
     const ControlWire wire(signal, element);
-    element.rates = [wire, factor](const StateInput& in, VectorOut Q, const VectorOut&) {
+    element.evaluate = [wire, factor](const ElementView& in, ElementForces& out) {
         Gradient gradient;
-        Q(0) = factor * wire.value(in, gradient);
+        out.Q(0) = factor * wire.value(in, gradient);
     };
-    element.jacobian = [wire, factor](const StateInput& in, StateJacobian& d) {
+    element.jacobian = [wire, factor](const ElementView& in, ElementJacobian& d) {
         Gradient gradient;
         (void)wire.value(in, gradient);
         wire.add_to_Q(d, 0, factor, gradient);

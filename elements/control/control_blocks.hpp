@@ -3,7 +3,7 @@
 ///
 ///     const ControlBlock filtered = low_pass({.name = "filtered speed", .unit = "rad/s", .scale = 120,
 ///                                             .input = 97 * signal::rate(shaft), .time_constant = 0.64});
-///     forces.add_states(filtered.element);
+///     forces.add_element(filtered.element);
 ///     const ControlSignal error = filtered.output - signal::constant(122.9);
 #pragma once
 
@@ -15,7 +15,7 @@ namespace cardan {
 
 /// An element to be added to a ForceSet, and what it gives.
 struct ControlBlock {
-    StateElement element;
+    ForceElement element;
     ControlSignal output;
 };
 
@@ -93,6 +93,6 @@ ControlBlock position_actuator(const Actuator& block, BodyId coordinate, double 
 /// That acts on a coordinate with the force p itself: Q = factor p. A generator's torque: factor = -gear ratio.
 ControlBlock force_actuator(const Actuator& block, BodyId coordinate, double factor = 1);
 /// A signal that acts on a coordinate at once, without a state: Q = factor x.
-StateElement signal_force(std::string name, const ControlSignal& signal, BodyId coordinate, double factor = 1);
+ForceElement signal_force(std::string name, const ControlSignal& signal, BodyId coordinate, double factor = 1);
 
 }  // namespace cardan

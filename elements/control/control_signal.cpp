@@ -121,7 +121,7 @@ void SoftLimits::check(const std::string& where, const std::string& quantity) co
         throw InputError(where, text("rounding of the limits of the ", quantity), rounding, "0 ... 0.5, exclusive");
 }
 
-ControlWire::ControlWire(const ControlSignal& signal, StateElement& element) : signal_(signal) {
+ControlWire::ControlWire(const ControlSignal& signal, ForceElement& element) : signal_(signal) {
     const auto place = [](auto& list, const auto& value) {
         const auto at = std::ranges::find(list, value);
         if (at != list.end()) return at - list.begin();
@@ -144,7 +144,7 @@ ControlWire::ControlWire(const ControlSignal& signal, StateElement& element) : s
     }
 }
 
-double ControlWire::value(const StateInput& in, std::array<double, ControlSignal::most_sources>& gradient) const {
+double ControlWire::value(const ElementView& in, std::array<double, ControlSignal::most_sources>& gradient) const {
     std::array<double, ControlSignal::most_sources> x{};
     for (std::size_t i = 0; i < ends_.size(); ++i) {
         const Eigen::Index at = ends_[i].at;
@@ -175,12 +175,12 @@ void ControlWire::add(const std::array<MatrixOut*, 5>& blocks, Eigen::Index row,
         (*entry(blocks, static_cast<int>(ends_[i].block)))(row, ends_[i].at) += factor * gradient.at(i);
 }
 
-void ControlWire::add_to_Q(StateJacobian& d, Eigen::Index row, double factor,
+void ControlWire::add_to_Q(ElementJacobian& d, Eigen::Index row, double factor,
                            const std::array<double, ControlSignal::most_sources>& gradient) const {
     add({&d.Q_q, &d.Q_qd, &d.Q_s, &d.Q_others, &d.Q_u}, row, factor, gradient);
 }
 
-void ControlWire::add_to_f(StateJacobian& d, Eigen::Index row, double factor,
+void ControlWire::add_to_f(ElementJacobian& d, Eigen::Index row, double factor,
                            const std::array<double, ControlSignal::most_sources>& gradient) const {
     add({&d.f_q, &d.f_qd, &d.f_s, &d.f_others, &d.f_u}, row, factor, gradient);
 }

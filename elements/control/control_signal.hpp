@@ -3,7 +3,7 @@
 #pragma once
 
 #include "mbs/base/monotone_cubic.hpp"
-#include "mbs/system/state_element.hpp"
+#include "mbs/system/force_element.hpp"
 
 #include <array>
 #include <cstddef>
@@ -83,14 +83,14 @@ struct SoftLimits {
 class ControlWire {
 public:
     /// Adds what the signal needs to the element, unless it is there.
-    ControlWire(const ControlSignal& signal, StateElement& element);
+    ControlWire(const ControlSignal& signal, ForceElement& element);
 
     /// @param gradient  of the sources, for add()
-    double value(const StateInput& in, std::array<double, ControlSignal::most_sources>& gradient) const;
+    double value(const ElementView& in, std::array<double, ControlSignal::most_sources>& gradient) const;
     /// Adds `factor` times the signal's derivatives to a row of Q or of f.
-    void add_to_Q(StateJacobian& d, Eigen::Index row, double factor,
+    void add_to_Q(ElementJacobian& d, Eigen::Index row, double factor,
                   const std::array<double, ControlSignal::most_sources>& gradient) const;
-    void add_to_f(StateJacobian& d, Eigen::Index row, double factor,
+    void add_to_f(ElementJacobian& d, Eigen::Index row, double factor,
                   const std::array<double, ControlSignal::most_sources>& gradient) const;
 
 private:

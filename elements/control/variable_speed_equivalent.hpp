@@ -24,8 +24,8 @@ struct VariableSpeedRounding {
 /// Two elements to be added to a force set, and the demands as signals, for actuators:
 ///
 ///     const VariableSpeedEquivalent loop = variable_speed_equivalent(parameters, {speed, pitch}, {122.9, 0.1});
-///     for (const ControlBlock* block : {&loop.filter, &loop.integral}) forces.add_states(block->element);
-///     forces.add_states(force_actuator({.demand = loop.torque, ...}, shaft, -97).element);
+///     for (const ControlBlock* block : {&loop.filter, &loop.integral}) forces.add_element(block->element);
+///     forces.add_element(force_actuator({.demand = loop.torque, ...}, shaft, -97).element);
 struct VariableSpeedEquivalent {
     ControlBlock filter;    ///< state "filtered generator speed", rad/s
     ControlBlock integral;  ///< state "pitch integral": the integral part at zero pitch, rad

@@ -2,7 +2,6 @@
 
 #include "elements/electric/detail/circuit_equations.hpp"
 #include "elements/electric/detail/circuit_loops.hpp"
-#include "elements/electric/detail/element_values.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
@@ -173,7 +172,7 @@ std::vector<std::string> Circuit::states() const {
     return names;
 }
 
-detail::CircuitEquations Circuit::equations(StateElement& element) const {
+detail::CircuitEquations Circuit::equations(ForceElement& element) const {
     const detail::CircuitLoops found = loops();
     const auto branches = std::ssize(branches_), capacitor_count = std::ssize(capacitors_),
                source_count = std::ssize(sources_);
@@ -232,7 +231,7 @@ detail::CircuitEquations Circuit::equations(StateElement& element) const {
 
 Circuit::Built Circuit::build() const {
     Built built{.element = {.name = options_.name, .coordinates = coordinates()}, .equations = {}};
-    StateElement& element = built.element;
+    ForceElement& element = built.element;
     built.equations = std::make_shared<const detail::CircuitEquations>(equations(element));
     built.equations->check(detail::CircuitEquations::Column::Zero(built.equations->coordinates));
     const Vector inductances = built.equations->inductance_at_zero();
@@ -249,13 +248,13 @@ Circuit::Built Circuit::build() const {
     return built;
 }
 
-StateElement Circuit::element() const {
+ForceElement Circuit::element() const {
     Built built = build();
-    StateElement& element = built.element;
+    ForceElement& element = built.element;
     const auto& equations = built.equations;
-    element.rates = [own = equations](const StateInput& in, VectorOut Q, VectorOut f) { own->rates(in, Q, f); };
-    element.jacobian = [own = equations](const StateInput& in, StateJacobian& d) { own->jacobian(in, d); };
-    element.power = [own = equations](const StateInput& in) { return own->power(in); };
+    element.evaluate = [own = equations](const ElementView& in, ElementForces& out) { own->rates(in, out.Q, out.f); };
+    element.jacobian = [own = equations](const ElementView& in, ElementJacobian& d) { own->jacobian(in, d); };
+    element.power = [own = equations](const ElementView& in) { return own->power(in); };
     for (const VoltageSource& source : sources_)
         element.breaks.insert(element.breaks.end(), source.breaks.begin(), source.breaks.end());
     return std::move(element);
@@ -275,9 +274,9 @@ ChannelGroup Circuit::channels() const {
                                   .long_name = text("generalised force of circuit '", options_.name,
                                                     "' on its coordinate ", k, ", N m or N")});
     group.sample = [own = build()](const DynamicView& in, double* values) {
-        const detail::ElementValues at(own.element, in);
-        const Vector currents = own.equations->branch_currents(at.input());
-        const detail::CircuitEquations::Column forces = own.equations->forces(at.input());
+        const ElementValues at(in.forces.elements(), own.element.name, in);
+        const Vector currents = own.equations->branch_currents(at.view());
+        const detail::CircuitEquations::Column forces = own.equations->forces(at.view());
         values = std::copy(currents.begin(), currents.end(), values);
         std::copy(forces.begin(), forces.end(), values);
     };

@@ -6,7 +6,7 @@
 ///     coil.add_source({.name = "supply", .from = "ground", .to = "plus", .over_time = [](double) { return 24.0; }});
 ///     coil.add_winding({.name = "coil", .from = "plus", .to = "ground", .inductance = 0.05, .resistance = 6});
 ///     coil.vary("coil", "coil", plunger, [](double x) { ... });
-///     forces.add_states(coil.element());
+///     forces.add_element(coil.element());
 #pragma once
 
 #include "elements/control/control_signal.hpp"
@@ -87,7 +87,7 @@ public:
     /// The equations, to be added to a ForceSet.
     /// @throws InputError naming the place: loops of sources alone or with capacitors, an inductance matrix of the
     /// loops that is not positive definite with all coordinates zero (in a motion: as soon as that happens)
-    StateElement element() const;
+    ForceElement element() const;
     /// "<name> current" of every source, resistor, capacitor and winding, A, and "<circuit> force on <k>", k counted
     /// from 1 over the coordinates of the inductances (N m or N), where there are any.
     ChannelGroup channels() const;
@@ -120,12 +120,12 @@ private:
     detail::CircuitLoops loops() const;
     /// The element without its functions, and what these call.
     struct Built {
-        StateElement element;
+        ForceElement element;
         std::shared_ptr<const detail::CircuitEquations> equations;
     };
     Built build() const;
     /// @param element  gets what the sources' signals need
-    detail::CircuitEquations equations(StateElement& element) const;
+    detail::CircuitEquations equations(ForceElement& element) const;
 
     Options options_;
     std::vector<std::string> nodes_;

@@ -104,7 +104,7 @@ void check(const std::string& name, double gear_ratio, const EquivalentCircuit& 
 }
 
 // States of a pair of axes.
-void add_states(StateElement& element, const std::string& name, const char* unit, double scale, Complex initial) {
+void add_states(ForceElement& element, const std::string& name, const char* unit, double scale, Complex initial) {
     for (const bool d : {true, false})
         element.states.push_back({.name = text(name, d ? " d" : " q"),
                                   .unit = unit,
@@ -122,8 +122,8 @@ Fluxes fluxes(const EquivalentCircuit& circuit, const EquivalentCircuit::Steady&
             circuit.rotor_inductance() * at.rotor_current + M * at.stator_current};
 }
 
-StateElement fluxes_of(const InductionGenerator& machine, const EquivalentCircuit& circuit) {
-    StateElement element{.name = machine.name, .coordinates = {machine.shaft}};
+ForceElement fluxes_of(const InductionGenerator& machine, const EquivalentCircuit& circuit) {
+    ForceElement element{.name = machine.name, .coordinates = {machine.shaft}};
     Fluxes start{};
     double torque = 0;
     if (machine.running) {
@@ -149,11 +149,11 @@ StateElement fluxes_of(const InductionGenerator& machine, const EquivalentCircui
 
 }  // namespace
 
-StateElement induction_generator(const InductionGenerator& machine) {
+ForceElement induction_generator(const InductionGenerator& machine) {
     check(machine.name, machine.gear_ratio, machine.circuit, machine.grid);
     require_positive(machine.name, "resistance of the breaker over the largest reactance", machine.breaker);
     const EquivalentCircuit circuit = machine.circuit.at_frequency(machine.grid.frequency);
-    StateElement element = fluxes_of(machine, circuit);
+    ForceElement element = fluxes_of(machine, circuit);
     const detail::MachineConstants constants(circuit, machine.grid, machine.gear_ratio, machine.breaker);
     if (machine.order == MachineOrder::fifth) detail::set_law(element, detail::FifthOrder{constants});
     if (machine.order == MachineOrder::third) detail::set_law(element, detail::ThirdOrder{constants});
@@ -164,7 +164,7 @@ StateElement induction_generator(const InductionGenerator& machine) {
 ChannelGroup induction_generator_channels(const InductionGenerator& machine) {
     const EquivalentCircuit circuit = machine.circuit.at_frequency(machine.grid.frequency);
     const detail::MachineConstants constants(circuit, machine.grid, machine.gear_ratio, machine.breaker);
-    const StateElement element = induction_generator(machine);
+    const ForceElement element = induction_generator(machine);
     if (machine.order == MachineOrder::fifth)
         return detail::machine_channels(machine.name, machine.alias, element, detail::FifthOrder{constants}, {},
                                         constants.omega, false);
@@ -201,7 +201,7 @@ detail::DoublyFed law_of(const DoublyFedGenerator& machine) {
 
 }  // namespace
 
-StateElement doubly_fed_generator(const DoublyFedGenerator& machine) {
+ForceElement doubly_fed_generator(const DoublyFedGenerator& machine) {
     check(machine.name, machine.gear_ratio, machine.circuit, machine.grid);
     require_positive(machine.name, "bandwidth of the currents [rad/s]", machine.bandwidth);
     if (!machine.grid.interruptions.empty())
@@ -211,7 +211,7 @@ StateElement doubly_fed_generator(const DoublyFedGenerator& machine) {
     const detail::DoublyFed law = law_of(machine);
     const DoublyFedStart start = start_of(machine, law);
     const double flux = machine.grid.peak() / machine.grid.omega();
-    StateElement element{.name = machine.name, .coordinates = {machine.shaft}};
+    ForceElement element{.name = machine.name, .coordinates = {machine.shaft}};
     add_states(element, machine.name + " stator flux", "V s", flux, start.stator_flux);
     add_states(element, machine.name + " rotor flux", "V s", flux, start.rotor_flux);
     add_states(element, machine.name + " converter", "V", machine.grid.peak() / 10,

@@ -11,7 +11,7 @@
 #include "elements/control/control_signal.hpp"
 #include "elements/electric/grid.hpp"
 #include "elements/machine/generator.hpp"
-#include "mbs/system/state_element.hpp"
+#include "mbs/system/force_element.hpp"
 
 #include <optional>
 #include <string>
@@ -88,7 +88,7 @@ struct InductionGenerator {
     std::string alias = "GenTq";  ///< of the torque channel
 };
 /// @throws InputError for bad numbers
-StateElement induction_generator(const InductionGenerator& machine);
+ForceElement induction_generator(const InductionGenerator& machine);
 /// "<name> torque", "<name> power" (electric, into the grid), "<name> reactive power" (into the grid), "<name> current"
 /// (root mean square of a phase, symmetrical), "<name> current a", "b", "c" (instantaneous) and "<name> voltage" (root
 /// mean square between lines).
@@ -116,7 +116,7 @@ struct DoublyFedGenerator {
     double running_speed = 0, running_torque = 0;
     std::string alias = "GenTq";
 };
-StateElement doubly_fed_generator(const DoublyFedGenerator& machine);
+ForceElement doubly_fed_generator(const DoublyFedGenerator& machine);
 /// As of the squirrel cage; powers are those of stator and converter together. And "<name> rotor voltage", peak, V,
 /// referred to the stator.
 ChannelGroup doubly_fed_generator_channels(const DoublyFedGenerator& machine);

@@ -1,6 +1,5 @@
 #include "elements/electric/synchronous_generator.hpp"
 
-#include "elements/electric/detail/element_values.hpp"
 #include "elements/electric/detail/law.hpp"
 #include "elements/electric/detail/phasor.hpp"
 #include "elements/machine/gear_ratio.hpp"
@@ -95,7 +94,7 @@ struct SynchronousLaw {
         f[control] = integral() * (in.s[voltage] - link.voltage) + link.bandwidth * (now.delivered - now.wanted);
         f[grid_current] = (now.delivered - in.s[grid_current]) / lag;
     }
-    StatePower power(const LawInput<double>& in) const {
+    ElementPower power(const LawInput<double>& in) const {
         const Point<double> now = at(in);
         const double u = in.s[voltage];
         return {.stored =
@@ -140,7 +139,7 @@ SynchronousLaw law_of(const SynchronousGenerator& generator) {
 
 }  // namespace
 
-StateElement synchronous_generator(const SynchronousGenerator& generator) {
+ForceElement synchronous_generator(const SynchronousGenerator& generator) {
     check(generator);
     const PermanentMagnetMachine& m = generator.machine;
     const double peak = generator.grid.peak(),
@@ -151,7 +150,7 @@ StateElement synchronous_generator(const SynchronousGenerator& generator) {
     if (std::abs(delivered) > generator.current_limit)
         throw InputError(generator.name, "current on the grid's side at the start [A]", delivered,
                          text("at most the limit, ", generator.current_limit));
-    StateElement element{.name = generator.name, .coordinates = {generator.shaft}};
+    ForceElement element{.name = generator.name, .coordinates = {generator.shaft}};
     const auto state = [&](const char* what, const char* unit, double scale, double initial) {
         element.states.push_back({.name = text(generator.name, " ", what),
                                   .unit = unit,
@@ -187,14 +186,13 @@ ChannelGroup synchronous_generator_channels(const SynchronousGenerator& generato
     channel("chopper power", "W", "power that the resistor at the DC link burns");
     channel("current", "A", "current of a phase of the machine, root mean square");
     channel("voltage", "V", "voltage of the grid between lines, root mean square");
-    StateElement seen{
+    ForceElement seen{
         .name = generator.name, .states = synchronous_generator(generator).states, .coordinates = {generator.shaft}};
     const auto functions = std::make_shared<const detail::LawFunctions<SynchronousLaw>>(
         law_of(generator), std::vector{generator.torque}, seen);
-    group.sample = [functions, seen = std::move(seen)](const DynamicView& in, double* values) {
-        const detail::ElementValues own_values(seen, in);
-        const StateInput input = own_values.input();
-        const auto x = functions->values<double>(input);
+    group.sample = [functions, element = generator.name](const DynamicView& in, double* values) {
+        const ElementValues own(in.forces.elements(), element, in);
+        const auto x = functions->values<double>(own.view());
         const auto now = functions->law().at(functions->at(in.time, x));
         *values++ = now.torque;
         *values++ = now.grid_power;

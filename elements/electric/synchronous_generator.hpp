@@ -5,7 +5,7 @@
 #include "elements/control/control_signal.hpp"
 #include "elements/electric/grid.hpp"
 #include "mbs/system/channel.hpp"
-#include "mbs/system/state_element.hpp"
+#include "mbs/system/force_element.hpp"
 
 #include <string>
 
@@ -48,7 +48,7 @@ struct SynchronousGenerator {
     std::string alias = "GenTq";
 };
 /// @throws InputError for bad numbers
-StateElement synchronous_generator(const SynchronousGenerator& generator);
+ForceElement synchronous_generator(const SynchronousGenerator& generator);
 /// "<name> torque", "<name> power" (into the grid), "<name> machine power" (into the link), "<name> chopper power",
 /// "<name> current" (of the machine, root mean square of a phase) and "<name> voltage" (of the grid, root mean square
 /// between lines).

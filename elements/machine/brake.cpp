@@ -21,7 +21,7 @@ double Brake::slope(double speed) const {
     return maximum_torque / regularisation * (1 - t) * (1 + t);
 }
 
-UserForce brake_force(const Brake& brake) {
+ForceElement brake_force(const Brake& brake) {
     require_gear_ratio(brake.name, brake.gear_ratio);
     require_not_negative(brake.name, "maximum torque [N m]", brake.maximum_torque);
     require_not_negative(brake.name, "ramp [s]", brake.ramp);

@@ -43,7 +43,7 @@ struct Brake {
 };
 
 /// Q = -ratio * torque.  @throws InputError for bad numbers
-UserForce brake_force(const Brake& brake);
+ForceElement brake_force(const Brake& brake);
 
 /// "<name> torque" (on the disc) and "<name> power" (dissipated).
 ChannelGroup brake_channels(const Brake& brake);

@@ -28,13 +28,13 @@ void add_bushing(ForceSet& forces, const Bushing& bushing) {
     PairLaw pair{bushing.name, bushing.a, bushing.b, {}, {}};
     for (int i = 0; i < 3; ++i) pair.measures.push_back(PairMeasure::turn(i));
     for (int i = 0; i < 3; ++i) pair.measures.push_back(PairMeasure::along(i));
-    pair.law = [K, D](const PairState& at, PairForces& out) {
-        out.f.noalias() = -(K * at.x.head<6>()) - D * at.v.head<6>();
+    pair.law = [K, D](double /*time*/, const Vector& x, const Vector& v, PairForces& out) {
+        out.f.noalias() = -(K * x.head<6>()) - D * v.head<6>();
         out.by_x = -K;
         out.by_v = -D;
-        out.energy = at.x.head<6>().dot(K * at.x.head<6>()) / 2;
+        out.energy = x.head<6>().dot(K * x.head<6>()) / 2;
     };
-    add_pair_law(forces, std::move(pair));
+    forces.add_element(pair_force(pair));
 }
 
 BearingTable::BearingTable(std::vector<double> speeds, std::vector<BearingCoefficients> coefficients)
@@ -64,12 +64,12 @@ void add_bearing(ForceSet& forces, const Bearing& bearing) {
     require_finite_coefficients(text("bearing '", bearing.name, "'"), bearing.coefficients);
     PairLaw pair{bearing.name, bearing.a, bearing.b, {PairMeasure::along(0), PairMeasure::along(1)}, {}};
     pair.has_energy = false;
-    pair.law = [own = bearing.coefficients](const PairState& at, PairForces& out) {
-        out.f = -(own.stiffness * at.x.head<2>()) - own.damping * at.v.head<2>();
+    pair.law = [own = bearing.coefficients](double /*time*/, const Vector& x, const Vector& v, PairForces& out) {
+        out.f = -(own.stiffness * x.head<2>()) - own.damping * v.head<2>();
         out.by_x = -own.stiffness;
         out.by_v = -own.damping;
     };
-    add_pair_law(forces, std::move(pair));
+    forces.add_element(pair_force(pair));
 }
 
 }  // namespace cardan

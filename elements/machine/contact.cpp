@@ -26,17 +26,17 @@ HuntCrossley::Force HuntCrossley::at(double depth, double speed) const {
 void add_plane_contact(ForceSet& forces, const PlaneContact& contact) {
     contact.law.check(text("contact '", contact.name, "'"));
     PairLaw pair{contact.name, contact.plane, contact.point, {PairMeasure::along(2)}, {}};
-    pair.law = [law = contact.law](const PairState& at, PairForces& out) {
-        const HuntCrossley::Force force = law.at(-at.x(0), -at.v(0));
+    pair.law = [law = contact.law](double /*time*/, const Vector& x, const Vector& v, PairForces& out) {
+        const HuntCrossley::Force force = law.at(-x(0), -v(0));
         out.f(0) = force.force;
         out.by_x(0, 0) = -force.by_depth;
         out.by_v(0, 0) = -force.by_speed;
         out.energy = force.energy;
     };
-    add_pair_law(forces, std::move(pair));
+    forces.add_element(pair_force(pair));
 }
 
-UserForce contact_stop(std::string name, BodyId coordinate, double limit, bool upper, const HuntCrossley& law) {
+ForceElement contact_stop(std::string name, BodyId coordinate, double limit, bool upper, const HuntCrossley& law) {
     const std::string where = text("stop '", name, "'");
     if (!std::isfinite(limit)) throw InputError(where, "limit", limit, "finite");
     law.check(where);
@@ -74,8 +74,8 @@ namespace {
 
 // On a coordinate, by the force of friction at a speed against the surface.
 template <class Friction>
-UserForce against_surface(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed,
-                          const Friction& friction) {
+ForceElement against_surface(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed,
+                             const Friction& friction) {
     const std::string where = text("friction '", name, "'");
     law.check(where);
     if (!std::isfinite(surface_speed)) throw InputError(where, "speed of the surface", surface_speed, "finite");
@@ -88,7 +88,7 @@ UserForce against_surface(std::string name, BodyId coordinate, const StribeckFri
 
 }  // namespace
 
-UserForce friction_force(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed) {
+ForceElement friction_force(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed) {
     return against_surface(std::move(name), coordinate, law, surface_speed,
                            [law](double speed) { return law.at(speed); });
 }
@@ -100,7 +100,7 @@ DryFriction add_dry_friction(ForceSet& forces, LoopSet& loops, const std::string
         if (state->engaged) return StribeckFriction::Force{};
         return state->direction == 0 ? law.at(speed) : law.sliding(speed, state->direction);
     };
-    forces.add_user(against_surface(name, coordinate, law, surface_speed, at_present));
+    forces.add_element(against_surface(name, coordinate, law, surface_speed, at_present));
     loops.add_lock({name, coordinate, friction.state});
     return friction;
 }

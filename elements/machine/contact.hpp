@@ -35,7 +35,7 @@ void add_plane_contact(ForceSet& forces, const PlaneContact& contact);
 
 /// A stop of a coordinate by the same law.
 /// @param upper  acts above the limit; else below
-UserForce contact_stop(std::string name, BodyId coordinate, double limit, bool upper, const HuntCrossley& law);
+ForceElement contact_stop(std::string name, BodyId coordinate, double limit, bool upper, const HuntCrossley& law);
 
 /// Friction T(v) against sliding at the speed v: static friction falls with the speed to Coulomb's, and a viscous part
 /// rises,
@@ -63,7 +63,7 @@ struct StribeckFriction {
 
 /// On a coordinate, against its rate as seen from a surface that moves along it.
 /// @param surface_speed  of the surface, m/s or rad/s
-UserForce friction_force(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed = 0);
+ForceElement friction_force(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed = 0);
 
 /// The same with true sticking where a time integration watches for it (stick_slip()): adds the force of sliding, and
 /// the lock that holds what sticks. Elsewhere - steady states, linear models - the law is regularised.

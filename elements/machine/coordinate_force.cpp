@@ -6,32 +6,18 @@
 
 namespace cardan {
 
-UserForce coordinate_force(std::string name, BodyId coordinate,
-                           std::function<CoordinateLaw(double, double, double)> law, bool elastic) {
+ForceElement coordinate_force(std::string name, BodyId coordinate,
+                              std::function<CoordinateLaw(double, double, double)> law, bool elastic) {
     if (!law) throw InputError(text("force '", name, "'"), "law", "empty function", "a callable one");
-    UserForce force;
-    force.name = std::move(name);
-    force.elastic = elastic;
-    const auto at = [coordinate, law = std::move(law)](const StateView& in, int& index) {
-        index = in.kinematics.model().index(coordinate);
-        return law(in.time, in.q(index), in.qd(index));
+    ForceElement force{.name = std::move(name), .coordinates = {coordinate}, .elastic = elastic};
+    const auto at = [law = std::move(law)](const ElementView& in) { return law(in.time, in.q(0), in.qd(0)); };
+    force.evaluate = [at](const ElementView& in, ElementForces& out) { out.Q(0) = at(in).force; };
+    force.jacobian = [at](const ElementView& in, ElementJacobian& d) {
+        const CoordinateLaw now = at(in);
+        d.Q_q(0, 0) = now.by_position;
+        d.Q_qd(0, 0) = now.by_rate;
     };
-    force.force = [at](const StateView& in, VectorOut Q) {
-        int i = 0;
-        const CoordinateLaw now = at(in, i);
-        Q(i) += now.force;
-    };
-    force.jacobian = [at](const StateView& in, MatrixOut dQ_dq, MatrixOut dQ_dqd) {
-        int i = 0;
-        const CoordinateLaw now = at(in, i);
-        dQ_dq(i, i) += now.by_position;
-        dQ_dqd(i, i) += now.by_rate;
-    };
-    if (elastic)
-        force.energy = [at](const StateView& in) {
-            int i = 0;
-            return at(in, i).energy;
-        };
+    if (elastic) force.potential = [at](const ElementView& in) { return at(in).energy; };
     return force;
 }
 

@@ -21,7 +21,8 @@ struct CoordinateLaw {
 
 /// The law as a force element with exact Jacobian. Allocates nothing unless `law` does.
 /// @param elastic  a spring: it has an energy, and -dQ/dq counts as elastic stiffness
-UserForce coordinate_force(std::string name, BodyId coordinate,
-                           std::function<CoordinateLaw(double time, double position, double rate)> law, bool elastic);
+ForceElement coordinate_force(std::string name, BodyId coordinate,
+                              std::function<CoordinateLaw(double time, double position, double rate)> law,
+                              bool elastic);
 
 }  // namespace cardan

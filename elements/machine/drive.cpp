@@ -57,7 +57,7 @@ double ElasticDrive::power(double time, double position, double rate) const {
     return force(time, position, rate) * sense * command->at(time).rate - damping * d.rate * d.rate;
 }
 
-UserForce drive_force(const ElasticDrive& drive) {
+ForceElement drive_force(const ElasticDrive& drive) {
     require_not_negative(drive.name, "stiffness", drive.stiffness);
     require_not_negative(drive.name, "damping", drive.damping);
     if (!drive.command) throw InputError(drive.name, "command", "none", "one");

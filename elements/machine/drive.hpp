@@ -63,7 +63,7 @@ struct ElasticDrive {
 /// Force element with exact Jacobian. Its energy is that of the spring, which depends on time while a command is being
 /// carried out.
 /// @throws InputError: negative stiffness or damping, no command, a sense that is neither 1 nor -1
-UserForce drive_force(const ElasticDrive& drive);
+ForceElement drive_force(const ElasticDrive& drive);
 
 /// "<name> command" (position), "<name> force" (along the coordinate) and "<name> power".
 /// @param units  of the coordinate, "rad" or "m"

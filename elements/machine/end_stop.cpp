@@ -12,7 +12,7 @@ double EndStop::energy(double position) const {
     return stiffness * (x < w ? x * x * x / (6 * w) : x * x / 2 - w * x / 2 + w * w / 6);
 }
 
-UserForce end_stop_force(const EndStop& stop) {
+ForceElement end_stop_force(const EndStop& stop) {
     if (!std::isfinite(stop.limit)) throw InputError(stop.name, "limit", stop.limit, "finite");
     require_not_negative(stop.name, "stiffness", stop.stiffness);
     require_not_negative(stop.name, "damping", stop.damping);

@@ -40,6 +40,6 @@ private:
 
 /// Force element with exact Jacobian. @throws InputError: a limit that is not finite, negative stiffness or damping,
 /// depth not positive
-UserForce end_stop_force(const EndStop& stop);
+ForceElement end_stop_force(const EndStop& stop);
 
 }  // namespace cardan

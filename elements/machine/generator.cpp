@@ -29,7 +29,7 @@ double Generator::torque(double rate) const {
     return std::visit([&](const auto& own) { return own.torque(gear_ratio * rate); }, law);
 }
 
-UserForce generator_force(const Generator& generator) {
+ForceElement generator_force(const Generator& generator) {
     require_gear_ratio(generator.name, generator.gear_ratio);
     if (const auto* machine = std::get_if<InductionMachine>(&generator.law)) machine->check(generator.name);
     const auto law = [generator](double, double, double rate) -> CoordinateLaw {

@@ -70,7 +70,7 @@ struct Generator {
 };
 
 /// @throws InputError for bad numbers
-UserForce generator_force(const Generator& generator);
+ForceElement generator_force(const Generator& generator);
 
 /// "<name> torque" (of the generator) and "<name> power" (mechanical, taken from the shaft).
 ChannelGroup generator_channels(const Generator& generator);

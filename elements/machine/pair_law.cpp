@@ -19,7 +19,7 @@ struct PairMemory {
     std::vector<MeasureCurvature> curvatures;
     Matrix gradient, rate_gradient;  // measures x path: dx_i/dq_c, dv_i/dq_c
     Matrix right;
-    PairState state;
+    Vector x, v;
     PairForces forces;
 };
 
@@ -44,7 +44,7 @@ void add_curvature(MeasureCurvature& sum, const PairMeasure& measure, double fac
 }
 
 // Measures, rates and the law's answer.
-void evaluate(const PairLaw& pair, const FieldInput& at, const FrameEnds<double>& ends, PairMemory& m) {
+void evaluate(const PairLaw& pair, const StateView& at, const FrameEnds<double>& ends, PairMemory& m) {
     const Model& model = at.kinematics.model();
     path_between(model, model.frame(pair.a).body, model.frame(pair.b).body, m.path);
     m.twists.clear();
@@ -59,24 +59,23 @@ void evaluate(const PairLaw& pair, const FieldInput& at, const FrameEnds<double>
     }
     const Eigen::Index k = std::ssize(pair.measures);
     m.wrenches.clear();
-    m.state.time = at.time;
-    m.state.x.resize(k);
-    m.state.v.resize(k);
+    m.x.resize(k);
+    m.v.resize(k);
     for (Eigen::Index i = 0; i < k; ++i) {
         m.wrenches.push_back(wrench_of(entry(pair.measures, i), ends));
-        m.state.x(i) = value_of_measure(entry(pair.measures, i), ends);
-        m.state.v(i) = m.wrenches.back().on({motion.w, motion.v});
+        m.x(i) = value_of_measure(entry(pair.measures, i), ends);
+        m.v(i) = m.wrenches.back().on({motion.w, motion.v});
     }
     m.forces.f.setZero(k);
     m.forces.by_x.setZero(k, k);
     m.forces.by_v.setZero(k, k);
     m.forces.energy = 0;
-    pair.law(m.state, m.forces);
+    pair.law(at.time, m.x, m.v, m.forces);
 }
 
 // With x_i(q), v_i = x_i,c qd^c:
 // dQ_c/dq^d = x_i,c (df_i/dx_j x_j,d + df_i/dv_j dv_j/dq^d) + f_i x_i,cd,   dQ_c/dqd^d = x_i,c df_i/dv_j x_j,d .
-void add_derivatives(const PairLaw& pair, const FieldInput& at, MatrixOut& by_q, MatrixOut& by_qd) {
+void add_derivatives(const PairLaw& pair, const StateView& at, MatrixOut& by_q, MatrixOut& by_qd) {
     Borrowed<PairMemory> borrowed;
     PairMemory& m = *borrowed;
     const FrameEnds<double> ends(at.kinematics, pair.a, pair.b);
@@ -115,38 +114,33 @@ void add_derivatives(const PairLaw& pair, const FieldInput& at, MatrixOut& by_q,
 
 }  // namespace
 
-void add_pair_law(ForceSet& forces, PairLaw pair) {
+ForceElement pair_force(const PairLaw& pair) {
     const std::string where = text("'", pair.name, "'");
     if (pair.measures.empty()) throw InputError(where, "number of measures", 0, ">= 1");
     if (!pair.law) throw InputError(where, "law", "missing", "a function");
     if (pair.a == pair.b) throw InputError(where, "frames", "one and the same", "two");
-    WrenchField field;
-    field.name = pair.name;
-    field.points = {{pair.a}, {pair.b}};
-    field.elastic = pair.elastic;
-    field.wrenches = [pair](const FieldInput& at, std::span<Wrench> out) {
+    ForceElement element{.name = pair.name, .points = {{pair.a}, {pair.b}}, .elastic = pair.elastic};
+    element.evaluate = [pair](const ElementView& at, ElementForces& out) {
         Borrowed<PairMemory> m;
-        const FrameEnds<double> ends(at.kinematics, pair.a, pair.b);
-        evaluate(pair, at, ends, *m);
-        Wrench on_b;
+        const FrameEnds<double> ends(at.system.kinematics, pair.a, pair.b);
+        evaluate(pair, at.system, ends, *m);
+        Wrench& on_b = out.wrenches[1];
         for (Eigen::Index i = 0; i < m->forces.f.size(); ++i) {
             on_b.force += m->forces.f(i) * entry(m->wrenches, i).force;
             on_b.moment += m->forces.f(i) * entry(m->wrenches, i).moment;
         }
-        out[0] = {};
-        add_moved(out[0], on_b, ends.p, ends.p - ends.d, -1);
-        out[1] = on_b;
+        add_moved(out.wrenches[0], on_b, ends.p, ends.p - ends.d, -1);
     };
-    field.jacobian = [pair](const FieldInput& at, MatrixOut by_q, MatrixOut by_qd) {
-        add_derivatives(pair, at, by_q, by_qd);
+    element.jacobian = [pair](const ElementView& at, ElementJacobian& d) {
+        add_derivatives(pair, at.system, d.Q_q, d.Q_qd);
     };
     if (pair.has_energy)
-        field.energy = [pair](const FieldInput& at) {
+        element.potential = [pair](const ElementView& at) {
             Borrowed<PairMemory> m;
-            evaluate(pair, at, FrameEnds<double>(at.kinematics, pair.a, pair.b), *m);
+            evaluate(pair, at.system, FrameEnds<double>(at.system.kinematics, pair.a, pair.b), *m);
             return m->forces.energy;
         };
-    forces.add_field(std::move(field));
+    return element;
 }
 
 }  // namespace cardan

@@ -31,12 +31,6 @@ struct PairMeasure {
     static PairMeasure distance() { return {{RelativeMeasure{RelativeMeasure::Kind::distance, 0, 0}, {}}, {1, 0}}; }
 };
 
-/// The measures and their rates.
-struct PairState {
-    double time = 0;
-    Vector x = {}, v = {};
-};
-
 /// What a law answers, one entry per measure; all zero when it is asked.
 struct PairForces {
     Vector f = {};                ///< on the measures: Q_a = f_i dx_i/dq^a
@@ -49,13 +43,14 @@ struct PairLaw {
     std::string name = {};
     FrameId a = {}, b = {};
     std::vector<PairMeasure> measures = {};
-    std::function<void(const PairState& at, PairForces& out)> law = {};
+    /// @param x, v  the measures and their rates
+    std::function<void(double time, const Vector& x, const Vector& v, PairForces& out)> law = {};
     bool has_energy = true;  ///< `energy` means something
     bool elastic = true;     ///< counts as elastic stiffness
 };
 
-/// As a field of two wrenches, so that loads of joints and channels take it into account, with exact derivatives.
+/// Acts at both frames, so that loads of joints and channels take it into account; exact derivatives.
 /// @throws InputError: no measure, no law, one frame
-void add_pair_law(ForceSet& forces, PairLaw pair);
+ForceElement pair_force(const PairLaw& pair);
 
 }  // namespace cardan

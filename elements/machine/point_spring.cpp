@@ -15,8 +15,8 @@ void add_point_spring(ForceSet& forces, const PointSpring& spring) {
     if (spring.stiffness == 0 && spring.damping == 0)
         throw InputError(where, "stiffness and damping", 0, "one of them > 0");
     PairLaw pair{spring.name, spring.a, spring.b, {PairMeasure::distance()}, {}};
-    pair.law = [spring](const PairState& at, PairForces& out) {
-        const double stretch = at.x(0) - spring.length, tension = spring.stiffness * stretch + spring.damping * at.v(0);
+    pair.law = [spring](double /*time*/, const Vector& x, const Vector& v, PairForces& out) {
+        const double stretch = x(0) - spring.length, tension = spring.stiffness * stretch + spring.damping * v(0);
         if (spring.cable && stretch > 0) out.energy = spring.stiffness * stretch * stretch / 2;
         if (spring.cable && (stretch <= 0 || tension <= 0)) return;
         out.f(0) = -tension;
@@ -24,7 +24,7 @@ void add_point_spring(ForceSet& forces, const PointSpring& spring) {
         out.by_v(0, 0) = -spring.damping;
         out.energy = spring.stiffness * stretch * stretch / 2;
     };
-    add_pair_law(forces, std::move(pair));
+    forces.add_element(pair_force(pair));
 }
 
 }  // namespace cardan

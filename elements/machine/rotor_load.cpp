@@ -91,17 +91,6 @@ Wrench RotorLoad::wrench(const StateView& in) const {
 
 namespace {
 
-void add_force(const RotorLoad& load, const StateView& in, VectorOut& Q) {
-    const RotorCurve::Value v = load.value(in);
-    const Pose<double> hub = pose(in.kinematics, load.hub);
-    const Vec3 axis = hub.R.col(2);
-    const Model& model = in.kinematics.model();
-    for (int a = model.frame(load.hub).body; a >= 0; a = model.body(a).parent) {
-        const PointTwist<double> t = twist_at(in.kinematics, a, hub.p);
-        Q(a) += v.thrust * axis.dot(t.v) + v.torque * axis.dot(t.w);
-    }
-}
-
 // The change of the wrench as it stands, turned with the hub, upon axes that turn: as for any follower load.
 void add_stiffness_of_axes(const RotorLoad& load, const StateView& in, const RotorCurve::Value& v, MatrixOut dQ_dq) {
     const Pose<double> hub = pose(in.kinematics, load.hub);
@@ -118,9 +107,9 @@ void add_stiffness_of_axes(const RotorLoad& load, const StateView& in, const Rot
         }
 }
 
-void add_jacobian(const RotorLoad& load, const StateView& in, MatrixOut& dQ_dq, MatrixOut& dQ_dqd) {
+void add_jacobian(const RotorLoad& load, const StateView& in, ElementJacobian& d) {
     const RotorCurve::Value v = load.value(in);
-    add_stiffness_of_axes(load, in, v, dQ_dq);
+    add_stiffness_of_axes(load, in, v, d.Q_q);
     const Pose<double> hub = pose(in.kinematics, load.hub);
     const Vec3 axis = hub.R.col(2);
     const Model& model = in.kinematics.model();
@@ -128,28 +117,27 @@ void add_jacobian(const RotorLoad& load, const StateView& in, MatrixOut& dQ_dq, 
         const PointTwist<double> t = twist_at(in.kinematics, a, hub.p);
         const Vec3 by = axis.dot(t.v) * v.thrust_by + axis.dot(t.w) * v.torque_by;  // azimuth, speed, pitch
         for (const auto& [body, factor] : load.azimuth) {
-            dQ_dq(a, model.index(body)) += factor * by(0);
-            dQ_dqd(a, model.index(body)) += factor * by(1);
+            d.Q_q(a, model.index(body)) += factor * by(0);
+            d.Q_qd(a, model.index(body)) += factor * by(1);
         }
-        for (const auto& [body, factor] : load.pitch) dQ_dq(a, model.index(body)) += factor * by(2);
+        for (const auto& [body, factor] : load.pitch) d.Q_q(a, model.index(body)) += factor * by(2);
     }
 }
 
 }  // namespace
 
-UserForce rotor_load_force(const RotorLoad& load) {
+ForceElement rotor_load_force(const RotorLoad& load) {
     if (!load.law) load.curve.check(load.name);
     if (!load.law && !load.wind) throw InputError(load.name, "wind", "none", "a function of time");
     if (load.azimuth.empty()) throw InputError(load.name, "coordinates of the azimuth", "none", "at least one");
     if (!std::isfinite(load.pitch_setting))
         throw InputError(load.name, "pitch setting [rad]", load.pitch_setting, "finite");
     const auto shared = std::make_shared<const RotorLoad>(load);
-    UserForce force;
-    force.name = load.name;
-    force.force = [shared](const StateView& in, VectorOut Q) { add_force(*shared, in, Q); };
-    force.jacobian = [shared](const StateView& in, MatrixOut dQ_dq, MatrixOut dQ_dqd) {
-        add_jacobian(*shared, in, dQ_dq, dQ_dqd);
+    ForceElement force{.name = load.name, .points = {{load.hub}}};
+    force.evaluate = [shared](const ElementView& in, ElementForces& out) {
+        out.wrenches[0] = shared->wrench(in.system);
     };
+    force.jacobian = [shared](const ElementView& in, ElementJacobian& d) { add_jacobian(*shared, in.system, d); };
     return force;
 }
 

@@ -67,7 +67,7 @@ struct RotorLoad {
 
 /// The load as a follower wrench on the hub. Exact Jacobian with respect to all coordinates that move the hub.
 /// @throws InputError for bad numbers, neither wind nor law, no azimuth
-UserForce rotor_load_force(const RotorLoad& load);
+ForceElement rotor_load_force(const RotorLoad& load);
 
 /// "<name> torque", "<name> thrust", "<name> power" (torque times rotor speed) and, if there is a wind, "wind speed".
 ChannelGroup rotor_load_channels(const RotorLoad& load);

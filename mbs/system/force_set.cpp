@@ -85,27 +85,23 @@ void ForceSet::add_wrench(FrameLoad load) {
     loads_.push_back(std::move(load));
 }
 
-void ForceSet::add_user(UserForce force) {
-    if (!force.force) throw InputError(text("user force '", force.name, "': the function `force` is missing"));
-    users_.push_back(std::move(force));
-}
-
-void ForceSet::add_field(WrenchField field) {
-    const bool has_states = !field.states.empty();
-    if (has_states ? !field.evaluate : !field.wrenches)
-        throw InputError(
-            text("field '", field.name, "': the function `", has_states ? "evaluate" : "wrenches", "` is missing"));
-    if (has_states && (field.energy || field.elastic))
-        throw InputError(text("field '", field.name, "'"), "energy, or elastic", "given", "not beside states");
-    for (const FieldPoint& point : field.points)
-        if (!point.place.allFinite())
-            throw InputError(text("field '", field.name, "'"), "place [m]", point.place.transpose(), "finite");
-    fields_.push_back(std::move(field));
-}
-
-void ForceSet::add_states(StateElement element) {
-    if (!element.rates) throw InputError(text("element '", element.name, "': the function `rates` is missing"));
-    state_elements_.push_back(std::move(element));
+void ForceSet::add_element(ForceElement element) {
+    const std::string where = text("element '", element.name, "'");
+    if (!element.evaluate) throw InputError(text(where, ": the function `evaluate` is missing"));
+    if (element.points.empty() && element.coordinates.empty() && element.states.empty())
+        throw InputError(where, "coordinates, points and states", "none", "what it acts upon");
+    if (!element.points.empty() && !element.coordinates.empty())
+        throw InputError(where, "coordinates", element.coordinates.size(), "0 beside points: it sees all of them");
+    if (element.points.empty() && !element.groups.empty())
+        throw InputError(where, "groups", element.groups.size(), "0 without points");
+    if (element.potential && element.power)
+        throw InputError(where, "potential, power", "both given", "one: power is the whole balance of energy");
+    if (element.differences_by_inputs && !element.jacobian)
+        throw InputError(where, "differences_by_inputs", "true", "false without a jacobian");
+    if (element.elastic && !element.states.empty()) throw InputError(where, "elastic", "true", "false beside states");
+    for (const FramePoint& point : element.points)
+        if (!point.place.allFinite()) throw InputError(where, "place [m]", point.place.transpose(), "finite");
+    elements_.push_back(std::move(element));
 }
 
 void ForceSet::add_input(InputInfo input) {
@@ -124,45 +120,14 @@ void require_frame(const FrameLoad& load, const Model& model) {
         throw InputError(text("load '", load.name, "'"), "frame", load.frame.index, "a frame of the tree");
 }
 
-// Those of fields, behind those of the elements.
-std::vector<OtherStates> states_of_fields(const ForceSet& set, const Model& model) {
-    std::vector<OtherStates> all;
-    for (const WrenchField& field : set.fields()) {
-        if (field.states.empty()) continue;
-        OtherStates& out = all.emplace_back(OtherStates{field.name, field.states, {}});
-        for (const FieldGroup& group : field.groups) {
-            StateGroup& to = out.groups.emplace_back(StateGroup{group.states, {}});
-            for (const BodyId body : group.coordinates) {
-                if (body.index < 0 || body.index >= model.size())
-                    throw InputError(text("field '", field.name, "'"), "body", body.index, "a body of the tree");
-                to.coordinates.push_back(model.index(body));
-            }
-        }
-        if (!field.groups.empty()) continue;
-        StateGroup& to = out.groups.emplace_back();
-        to.states.resize(field.states.size());
-        std::iota(to.states.begin(), to.states.end(), 0);
-        to.coordinates.resize(static_cast<std::size_t>(model.size()));
-        std::iota(to.coordinates.begin(), to.coordinates.end(), 0);
-    }
-    return all;
-}
-
 }  // namespace
 
 Forces::Forces(const ForceSet& set, const Model& model)
     : loads_(set.loads()),
-      states_(set.state_elements(), set.inputs(), model, states_of_fields(set, model)),
+      elements_(set.elements(), set.inputs(), model),
       gravity_(set.gravity()),
       model_(model.serial()),
       size_(model.size()) {
-    for (const UserForce& force : set.users()) users_.push_back({force});
-    int first = 0;
-    for (const StateElement& element : set.state_elements()) first += static_cast<int>(element.states.size());
-    for (const WrenchField& field : set.fields()) {
-        fields_.push_back(bound(field, model, first));
-        first += static_cast<int>(field.states.size());
-    }
     for (const LinearLaw& law : set.laws()) {
         Law bound{law.name, {}, law.stiffness, law.damping, law.rest};
         for (BodyId body : law.coordinates) {
@@ -175,23 +140,6 @@ Forces::Forces(const ForceSet& set, const Model& model)
     springs_ = runs_of(&Law::K);
     dampers_ = runs_of(&Law::D);
     for (const FrameLoad& load : loads_) require_frame(load, model);
-}
-
-Forces::Field Forces::bound(const WrenchField& field, const Model& model, int first) const {
-    Field out{field, {}, {}, first};
-    for (const std::string& input : field.inputs) {
-        out.inputs.push_back(inputs().index(input));
-        if (out.inputs.back() < 0)
-            throw InputError(text("field '", field.name, "'"), "input", input, "an input of the system");
-    }
-    for (const FieldPoint& point : field.points) {
-        if (point.frame.index < 0 || point.frame.index >= std::ssize(model.frames()))
-            throw InputError(text("field '", field.name, "'"), "frame", point.frame.index, "a frame of the tree");
-        const Model::Frame& frame = model.frame(point.frame);
-        out.bodies.push_back(frame.body);
-        out.places.push_back(frame.in_body * point.place);
-    }
-    return out;
 }
 
 // A law's coordinates in ascending order, cut where an index is left out.
@@ -243,8 +191,7 @@ std::string Forces::stiffest_law(int coordinate) const {
 std::vector<double> Forces::breaks() const {
     std::vector<double> all;
     for (const FrameLoad& load : loads_) all.insert(all.end(), load.breaks.begin(), load.breaks.end());
-    for (const Field& field : fields_) all.insert(all.end(), field.own.breaks.begin(), field.own.breaks.end());
-    states_.append_breaks(all);
+    elements_.append_breaks(all);
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
@@ -269,11 +216,7 @@ Forces Forces::with_load_factor(double factor, bool gravity_too) const {
     if (!std::isfinite(factor)) throw InputError("forces", "load factor", factor, "finite");
     Forces other = *this;
     for (FrameLoad& load : other.loads_) scale(load, factor);
-    for (User& user : other.users_)
-        if (!user.own.elastic) user.factor *= factor;
-    for (Field& field : other.fields_)
-        if (!field.own.elastic) field.factor *= factor;
-    other.states_.scale(factor);
+    other.elements_.scale(factor);
     if (gravity_too) other.gravity_ *= factor;
     return other;
 }

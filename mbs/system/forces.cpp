@@ -1,6 +1,5 @@
 #include "mbs/system/forces.hpp"
 
-#include "mbs/base/borrowed.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/vector_loops.hpp"
@@ -9,12 +8,6 @@
 namespace cardan {
 
 namespace {
-
-// For scaled user forces, and for fields.
-struct Scratch {
-    Vector Q, rates;
-    std::vector<Wrench> points, bodies;
-};
 
 // One run of coefficients after the other: rows of dense matrices of any size, in whole registers.
 template <class S, class Run>
@@ -102,8 +95,8 @@ void Forces::add_wrench(const FrameLoad& load, const KinematicsT<S>& kin, double
 }
 
 template <class S>
-void Forces::generalised_forces_of_elements(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q,
-                                            double time) const {
+void Forces::generalised_forces_of_laws(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q,
+                                        double time) const {
     require_state<S>(kin, q, qd);
     require_size("forces", "Q", Q, size_);
     Q.setZero();
@@ -119,86 +112,13 @@ void Forces::generalised_forces(const StateView& at, VectorOut Q) const {
 }
 
 void Forces::generalised_forces(const StateView& at, VectorOut Q, VectorOut rates) const {
-    generalised_forces_of_elements<double>(at.kinematics, at.q, at.qd, Q, at.time);
-    add_users(at, Q);
-    states_.rates(at, Q, rates);
-    for (const Field& field : fields_)
-        add_field(field, field.factor, field.input(at), Q, rates.segment(field.first, field.states()));
+    generalised_forces_of_laws<double>(at.kinematics, at.q, at.qd, Q, at.time);
+    elements_.add_forces(at, Q, rates);
 }
 
 void Forces::require_no_states(const char* where) const {
     if (has_states())
         throw InputError(where, "number of states", states().size(), "0: they are not taken into account here");
-}
-
-void Forces::add_users(const StateView& at, VectorOut& Q) const {
-    for (const User& user : users_) add_user(user, at, Q);
-}
-
-// A user force adds to what is there: to be multiplied by a factor it needs zeros of its own to add to.
-void Forces::add_user(const User& user, const StateView& at, VectorOut& Q) const {
-    if (user.factor == 1) {
-        user.own.force(at, Q);
-        return;
-    }
-    Borrowed<Scratch> scratch;
-    scratch->Q.setZero(Q.size());
-    user.own.force(at, scratch->Q);
-    Q += user.factor * scratch->Q;
-}
-
-const WrenchField& Forces::field(int i) const {
-    require_index("forces", "field", i, std::ssize(fields_));
-    return entry(fields_, i).own;
-}
-
-FieldInput Forces::field_input(std::string_view name, const StateView& at) const {
-    for (const Field& field : fields_)
-        if (field.own.name == name) return field.input(at);
-    throw InputError("forces", "field", std::string(name), "one of the system");
-}
-
-std::vector<Wrench> Forces::field_wrenches(int i, const StateView& at) const {
-    const Field& own = (static_cast<void>(field(i)), entry(fields_, i));
-    std::vector<Wrench> out(own.own.points.size());
-    Vector rates(own.states());
-    evaluate_field(own.input(at), own, out, rates);
-    for (Wrench& w : out) w = {own.factor * w.force, own.factor * w.moment};
-    return out;
-}
-
-void Forces::evaluate_field(const FieldInput& at, const Field& field, std::span<Wrench> wrenches,
-                            const VectorOut& rates) {
-    if (field.states() > 0)
-        field.own.evaluate(at, wrenches, rates);
-    else
-        field.own.wrenches(at, wrenches);
-}
-
-// The wrenches of a body about its joint's origin; from the tips down, every joint takes its share and passes on.
-// @param rates  out, of the field's states
-void Forces::add_field(const Field& field, double factor, const FieldInput& at, VectorOut& Q,
-                       const VectorOut& rates) const {
-    const Workspace& ws = at.kinematics.workspace();
-    Borrowed<Scratch> scratch;
-    scratch->points.resize(field.own.points.size());
-    scratch->bodies.assign(static_cast<std::size_t>(size_), {});
-    evaluate_field(at, field, scratch->points, rates);
-    for (std::size_t i = 0; i < scratch->points.size(); ++i) {
-        const int body = field.bodies[i];
-        if (body < 0) continue;
-        const Vec3 arm = entry(ws.frame, body).E.matrix() * field.places[i];
-        add_moved(entry(scratch->bodies, body), scratch->points[i], arm, Vec3::Zero(), factor);
-    }
-    for (int k = size_ - 1; k >= 0; --k) {
-        const Wrench& sum = entry(scratch->bodies, k);
-        const Workspace::Frame& frame = entry(ws.frame, k);
-        const Model::Link& link = entry(at.kinematics.model().links(), k);
-        Q(k) += frame.E[2].vector().dot(link.revolute ? sum.moment : sum.force);
-        if (link.parent >= 0)
-            add_moved(entry(scratch->bodies, link.parent), sum, frame.o.vector(),
-                      entry(ws.frame, link.parent).o.vector());
-    }
 }
 
 Wrench Forces::at_frame(const FrameLoad& load, const Kinematics& kin, double time) const {
@@ -255,21 +175,9 @@ std::vector<ForceReport> Forces::report(const StateView& at) const {
             energy = -load.wrench.force.dot(pose(kin, load.frame).p);
         reports.push_back({load.name, energy, power()});
     }
-    for (const User& user : users_) {
-        VectorOut sum = Q;
-        add_user(user, at, sum);
-        std::optional<double> energy;
-        if (user.own.energy) energy = user.factor * user.own.energy(at);
-        reports.push_back({user.own.name, energy, power()});
-    }
-    for (const Field& field : fields_) {
-        Vector rates(field.states());
-        VectorOut sum = Q;
-        add_field(field, field.factor, field.input(at), sum, rates);
-        std::optional<double> energy;
-        if (field.own.energy) energy = field.factor * field.own.energy(field.input(at));
-        reports.push_back({field.own.name, energy, power()});
-    }
+    for (int i = 0; i < elements_.size(); ++i)
+        if (!elements_[i].power)
+            reports.push_back({elements_[i].name, elements_.potential(i, at), elements_.forces(i, at).dot(qd)});
     return reports;
 }
 
@@ -280,18 +188,18 @@ double Forces::potential_energy(const StateView& at) const {
 }
 
 StateEnergy Forces::state_energy(const StateView& at) const {
-    return states_.energy(at);
+    return elements_.energy(at);
 }
 
-Vec3 place_of(const Kinematics& kin, const FieldPoint& point) {
+Vec3 place_of(const Kinematics& kin, const FramePoint& point) {
     const Pose<double> frame = pose(kin, point.frame);
     return frame.p + frame.R * point.place;
 }
 
 template void Forces::require_state<double>(const KinematicsT<double>&, VectorInT<double>, VectorInT<double>) const;
-template void Forces::generalised_forces_of_elements<double>(const KinematicsT<double>&, VectorInT<double>,
-                                                             VectorInT<double>, VectorOutT<double>, double) const;
-template void Forces::generalised_forces_of_elements<Complex>(const KinematicsT<Complex>&, VectorInT<Complex>,
-                                                              VectorInT<Complex>, VectorOutT<Complex>, double) const;
+template void Forces::generalised_forces_of_laws<double>(const KinematicsT<double>&, VectorInT<double>,
+                                                         VectorInT<double>, VectorOutT<double>, double) const;
+template void Forces::generalised_forces_of_laws<Complex>(const KinematicsT<Complex>&, VectorInT<Complex>,
+                                                          VectorInT<Complex>, VectorOutT<Complex>, double) const;
 
 }  // namespace cardan

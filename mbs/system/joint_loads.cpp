@@ -31,8 +31,8 @@ JointLoads joint_loads(const StateView& at, const Forces& forces, VectorIn qdd, 
         if (body < 0) continue;
         add_moved(entry(applied, body), forces.at_frame(load, kin, at.time), pose(kin, load.frame).p, kin.origin(body));
     }
-    for (int f = 0; f < forces.fields(); ++f) t.fields.push_back(forces.field_wrenches(f, at));
-    for_each_point(forces, t, [&](const FieldPoint& point, const Wrench& wrench) {
+    for (int i = 0; i < forces.elements().size(); ++i) t.elements.push_back(forces.elements().wrenches(i, at));
+    for_each_point(forces, t, [&](const FramePoint& point, const Wrench& wrench) {
         const int body = model.frame(point.frame).body;
         if (body >= 0) add_moved(entry(applied, body), wrench, place_of(kin, point), kin.origin(body));
     });

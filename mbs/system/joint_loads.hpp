@@ -29,19 +29,19 @@ struct JointLoads {
     double time = 0;                 ///< s: wrenches are those of this time
     std::vector<BodyMotion> motion;  ///< one per body
     /// Force and moment about the joint origin that the joint (drive, spring and bearing together) exerts on its body:
-    /// inertial forces of the subtree minus gravity, wrenches, fields and loops on it, base axes. User forces are left
-    /// out, since they are not given as wrenches; armatures have no reaction.
+    /// inertial forces of the subtree minus gravity, wrenches, elements with points and loops on it, base axes. Forces
+    /// of elements on coordinates are left out, since they are not given as wrenches; armatures have no reaction.
     std::vector<Wrench> joint;
-    std::vector<std::vector<Wrench>> fields;  ///< Forces::field_wrenches() of each
-    std::vector<LoopLoad> loops = {};         ///< Loops::add_loads()
+    std::vector<std::vector<Wrench>> elements;  ///< BoundElements::wrenches() of each; of one without points: none
+    std::vector<LoopLoad> loops = {};           ///< Loops::add_loads()
 };
 
-/// Calls visit(point, wrench) for all points of all fields.
+/// Calls visit(point, wrench) for all points of all elements.
 template <class Visit>
 void for_each_point(const Forces& forces, const JointLoads& loads, const Visit& visit) {
-    for (std::size_t f = 0; f < loads.fields.size(); ++f)
-        for (std::size_t i = 0; i < loads.fields[f].size(); ++i)
-            visit(forces.field(static_cast<int>(f)).points[i], loads.fields[f][i]);
+    for (std::size_t e = 0; e < loads.elements.size(); ++e)
+        for (std::size_t i = 0; i < loads.elements[e].size(); ++i)
+            visit(forces.elements()[static_cast<int>(e)].points[i], loads.elements[e][i]);
 }
 
 /// @param qdd    accelerations, size n

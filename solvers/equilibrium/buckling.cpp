@@ -18,7 +18,7 @@ namespace {
 
 // Sums of the magnitudes of the terms of which the stiffness of wrenches and gravity consists at a state: it is exact
 // to rounding of these, not of itself. The terms are d_b (v_a . F) = F . (w_b x v_a) + M . (w_b x w_a), b inboard of a,
-// with levers that are differences of places. What user forces are made of is not known.
+// with levers that are differences of places. What force elements are made of is not known.
 Matrix term_sizes(const System& system, const Vector& q, bool gravity) {
     const Model& model = system.model;
     Workspace workspace(model);

@@ -10,7 +10,7 @@
 
 namespace cardan::solvers {
 
-/// The system with its loads (wrenches, user forces and, if wanted, gravity) multiplied by a factor; see
+/// The system with its loads (wrenches, force elements and, if wanted, gravity) multiplied by a factor; see
 /// Forces::with_load_factor().
 System under_load(const System& system, double factor, bool gravity);
 

@@ -63,7 +63,7 @@ public:
     SteadySolver& operator=(const SteadySolver&) = delete;
 
     /// @param result  overwritten, even if it does not converge. From the second call on with the same `result` nothing
-    ///                is allocated, unless the solution fails or a user force allocates.  Cost O(n^3) per iteration.
+    ///                is allocated, unless the solution fails or a force element allocates.  Cost O(n^3) per iteration.
     /// @throws InputError, NumericalError; the solver can be used again
     void solve(const SteadyOptions& options, SteadyState& result);
 

@@ -22,7 +22,7 @@ struct Linearisation {
     Matrix gyroscopic;  ///< d(Gamma qd qd)/dqd
     Matrix elastic;     ///< -dQ/dq of the linear laws
     Matrix gravity;     ///< -dQ/dq of gravity
-    Matrix loads;       ///< -dQ/dq of wrenches, user forces and elements with states
+    Matrix loads;       ///< -dQ/dq of wrenches and force elements that are not elastic
     Matrix inertial;    ///< d(g qdd + Gamma qd qd)/dq
     DynamicState at;
     CoordinateTable coordinates;
@@ -52,14 +52,15 @@ enum class LoopState : std::uint8_t {
 };
 
 /// Linearises a system about one operating point after another. Exact: analytic derivatives of the recursions and of
-/// the force elements (user forces without a Jacobian are differenced). Keeps a reference to the system; one per
+/// the force elements (force elements without a Jacobian are differenced). Keeps a reference to the system; one per
 /// thread.
 class Lineariser {
 public:
     explicit Lineariser(const System& system, LoopState loops = LoopState::at_rest);
     explicit Lineariser(System&&, LoopState = LoopState::at_rest) = delete;  // the system must live longer
 
-    /// @param out  overwritten; from the second call on with the same `out` nothing is allocated, unless a user force
+    /// @param out  overwritten; from the second call on with the same `out` nothing is allocated, unless a force
+    /// element
     ///             allocates or is differenced.  Cost O(n^2).
     /// @throws InputError for vectors of the wrong size, and for values that are not finite, with the coordinate's
     /// name; for loops that are open or in motion where they may not be

@@ -98,7 +98,7 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
 /// the Jacobian is the mean of that over the revolution in multi-blade coordinates as long as the residual falls well:
 /// an iteration then costs a linear system of n complex rows for every harmonic that matters. Two alike blades leave
 /// half of the coefficients: even harmonics of their sum, odd ones of their difference.
-/// @throws InputError for options out of range; user forces must have the period of a revolution and are not checked
+/// @throws InputError for options out of range; force elements must have the period of a revolution and are not checked
 PeriodicSteadyState harmonic_balance(const System& system, int spin, const PeriodicOptions& options);
 
 /// The periodic steady state by shooting: finds the free coordinates, rates and states at azimuth 0 that one revolution

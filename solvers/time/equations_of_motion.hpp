@@ -51,7 +51,7 @@ struct Powers {
 ///     r_f = g qdd + Gamma qd qd - Q,   r_s = ds/dt - f
 ///
 /// for second-order methods. With loops phi_i(q, t) = 0 their forces phi_ia lambda_i are among the rates; the residual
-/// does not know them. Nothing allocates after construction except user forces and motions. Keeps a reference to
+/// does not know them. Nothing allocates after construction except force elements and motions. Keeps a reference to
 /// the system; one object per thread.
 class EquationsOfMotion {
 public:

@@ -88,7 +88,7 @@ struct IntegrationOptions {
     /// with dirk and erk).
     bool integrate_work = true;
     Vector states = {};               ///< states at the start; empty: as their table says
-    std::vector<double> breaks = {};  ///< further times, ascending, at which to restart: jumps of user forces
+    std::vector<double> breaks = {};  ///< further times, ascending, at which to restart: jumps of force elements
     std::vector<Event> events = {};
     std::vector<SampledController> controllers = {};                               ///< called in this order
     std::function<bool()> cancelled = {};                                          ///< called before every step

@@ -19,7 +19,7 @@ bool Integrator::accumulate(double to) {
     static constexpr std::array<Node, 2> two{{{-0.57735026918962576, 1}, {0.57735026918962576, 1}}};
     const bool long_steps = options_.method == Method::dirk || options_.method == Method::erk;
     const double half = (to - state_.time) / 2, middle = state_.time + half;
-    Work sum = work_;  // kept as it was if a user force throws
+    Work sum = work_;  // kept as it was if a force element throws
     for (const Node& node : long_steps ? std::span<const Node>(three) : std::span<const Node>(two)) {
         const double time = middle + node.at * half, weight = node.weight * half;
         state_at(time, x_between_);

@@ -354,7 +354,7 @@ TEST_CASE("bad input: coupled blocks of wrong size, not symmetric or indefinite"
     CHECK(refusal([&] { s.forces.add_law(s.law(Matrix::Zero(2, 2))); }) == "(accepted)");
 }
 
-TEST_CASE("bad input: loads, gravity and user forces", "[property]") {
+TEST_CASE("bad input: loads, gravity and force elements", "[property]") {
     ForceSet forces;
     check_refused([&] { forces.set_gravity(Vec3(0, 0, not_a_number)); }, {"gravity", "0   0 nan", "finite"});
     CHECK(forces.gravity() == Vec3::Zero());
@@ -364,9 +364,9 @@ TEST_CASE("bad input: loads, gravity and user forces", "[property]") {
     load.wrench.force.setZero();
     load.wrench.moment(0) = not_a_number;
     check_refused([&] { forces.add_wrench(load); }, {"load 'thrust'", "nan"});
-    check_refused([&] { forces.add_user({.name = "aerodynamics"}); }, {"user force 'aerodynamics'", "missing"});
+    check_refused([&] { forces.add_element({.name = "aerodynamics"}); }, {"element 'aerodynamics'", "missing"});
     CHECK(forces.loads().empty());
-    CHECK(forces.users().empty());
+    CHECK(forces.elements().empty());
 }
 
 TEST_CASE("bad input: force elements on bodies and frames that the model does not have", "[property]") {

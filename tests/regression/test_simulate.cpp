@@ -29,7 +29,7 @@ turbines::Turbine machine() {
     ForceSet forces = turbine.forces();
     forces.add_spring("slip", *turbine.layout().generator, 0, n * n * slope);
     const double rest = -n * (torque - slope * n * speed);
-    forces.add_user(coordinate_force(
+    forces.add_element(coordinate_force(
         "generator", *turbine.layout().generator,
         [rest](double, double, double) { return CoordinateLaw{.force = rest}; }, false));
     return turbine.with_forces(forces);

@@ -16,17 +16,17 @@ inline SmallRotor rotor_with_lags(double coupling, int blades = 3, const Vec3& g
                         .elastic_support = true,
                         .gravity = gravity};
     spec.more = [coupling, unit](ForceSet& forces, const std::vector<std::vector<BodyId>>& bodies) {
-        StateElement support{.name = "support",
+        ForceElement support{.name = "support",
                              .states = {{.name = "support lag", .unit = "N m", .scale = 100 / unit}},
                              .coordinates = {BodyId{0}}};
-        support.rates = [coupling, unit](const StateInput& in, VectorOut Q, VectorOut f) {
-            Q(0) = -coupling * unit * in.s(0);
-            f(0) = 800 / unit * in.qd(0) - 3 * in.s(0);
+        support.evaluate = [coupling, unit](const ElementView& in, ElementForces& out) {
+            out.Q(0) = -coupling * unit * in.s(0);
+            out.f(0) = 800 / unit * in.qd(0) - 3 * in.s(0);
         };
-        forces.add_states(support);
+        forces.add_element(support);
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             const int blade = static_cast<int>(k) + 1;
-            StateElement lag{.name = text("blade ", blade, " lag"),
+            ForceElement lag{.name = text("blade ", blade, " lag"),
                              .states = {{.name = text("blade ", blade, " first"),
                                          .unit = "N m",
                                          .scale = 50 / unit,
@@ -38,13 +38,13 @@ inline SmallRotor rotor_with_lags(double coupling, int blades = 3, const Vec3& g
                                          .part = "blade",
                                          .blade = blade}},
                              .coordinates = {bodies[k][0], bodies[k][1]}};
-            lag.rates = [coupling, unit](const StateInput& in, VectorOut Q, VectorOut f) {
-                Q(0) = -coupling * unit * in.s(0);
-                Q(1) = coupling * unit * in.s(1);
-                f(0) = 900 / unit * in.qd(0) - 4 * in.s(0);
-                f(1) = 300 / unit * in.q(1) + 2 * in.s(0) - 7 * in.s(1);
+            lag.evaluate = [coupling, unit](const ElementView& in, ElementForces& out) {
+                out.Q(0) = -coupling * unit * in.s(0);
+                out.Q(1) = coupling * unit * in.s(1);
+                out.f(0) = 900 / unit * in.qd(0) - 4 * in.s(0);
+                out.f(1) = 300 / unit * in.q(1) + 2 * in.s(0) - 7 * in.s(1);
             };
-            forces.add_states(lag);
+            forces.add_element(lag);
         }
     };
     return small_rotor(spec);

@@ -73,13 +73,13 @@ std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& 
 }
 
 // Through the wake of the rotor a section sees the mean wind at all blades.
-std::vector<FieldGroup> groups_of(const AirParts& parts, const std::vector<BodyId>& body_ids) {
-    std::vector<FieldGroup> all;
+std::vector<ElementGroup> groups_of(const AirParts& parts, const std::vector<BodyId>& body_ids) {
+    std::vector<ElementGroup> all;
     const std::size_t count = parts.profile->sections();
     for (std::size_t i = 0; i < parts.lags->sections.size(); ++i) {
         const int states = parts.lags->sections[i].states();
         if (states == 0) continue;
-        FieldGroup& group = all.emplace_back();
+        ElementGroup& group = all.emplace_back();
         group.states.resize(static_cast<std::size_t>(states));
         std::iota(group.states.begin(), group.states.end(), parts.lags->first[i]);
         const bool has_wake = parts.options.induction && parts.lags->sections[i].wake != WakeLag::frozen;
@@ -117,7 +117,7 @@ MachineAir MachineAir::lagging(AirLagOptions options) const {
     return with(std::move(lags));
 }
 
-MachineAir MachineAir::with_frozen_wake(const FieldInput& at) const {
+MachineAir MachineAir::with_frozen_wake(const ElementView& at) const {
     const std::array now{sections(at)};
     return with_frozen_wake(now);
 }
@@ -146,9 +146,8 @@ int MachineAir::states() const {
     return parts_->lags ? parts_->lags->states : 0;
 }
 
-FieldInput MachineAir::input(const StateView& at, const Forces& forces) const {
-    if (states() == 0 && parts_->wind_input.empty()) return at;
-    return forces.field_input(name_of_air, at);
+ElementValues MachineAir::values(const StateView& at, const Forces& forces) const {
+    return {forces.elements(), name_of_air, at};
 }
 
 MachineAir MachineAir::with_wind_input(const std::string& name) const {
@@ -158,15 +157,16 @@ MachineAir MachineAir::with_wind_input(const std::string& name) const {
     return MachineAir(parts);
 }
 
-Vector MachineAir::steady_states(const FieldInput& at) const {
+Vector MachineAir::steady_states(const ElementView& at) const {
     Vector out = Vector::Zero(states());
     const Vector any = Vector::Zero(states());
     Borrowed<AirScratch> scratch;
-    AirEvaluation(*parts_, FieldInput(at, any), *scratch).steady_states(out);
+    const ElementView still(at.time, at.q, at.qd, any, at.others, at.u, at.system);
+    AirEvaluation(*parts_, still, *scratch).steady_states(out);
     return out;
 }
 
-double MachineAir::wake_time(const FieldInput& at) const {
+double MachineAir::wake_time(const ElementView& at) const {
     const std::vector<std::vector<SectionAir>> now = sections(at);
     std::vector<double> shares, axial;
     double wind = 0;

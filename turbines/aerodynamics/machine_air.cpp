@@ -65,51 +65,38 @@ MachineAir MachineAir::in(const Wind& wind) const {
     return MachineAir(parts);
 }
 
-WrenchField MachineAir::field() const {
-    WrenchField field{
-        .name = name_of_air, .points = {}, .wrenches = {}, .jacobian = {}, .breaks = parts_->wind.breaks()};
-    if (!parts_->wind_input.empty()) field.inputs = {parts_->wind_input};
+ForceElement MachineAir::element() const {
+    ForceElement element{.name = name_of_air, .breaks = parts_->wind.breaks()};
+    if (!parts_->wind_input.empty()) element.inputs = {parts_->wind_input};
     for (const AirBlade& blade : parts_->blades)
-        for (const AirPoint& point : blade.points) field.points.push_back(point.at);
+        for (const AirPoint& point : blade.points) element.points.push_back(point.at);
     if (states() > 0) {
-        add_lags(field);
-        return field;
+        element.states = states_of(*parts_, parts_->blade_numbers);
+        element.groups = groups_of(*parts_, parts_->body_ids);
     }
-    field.wrenches = [parts = parts_](const FieldInput& at, std::span<Wrench> out) {
-        Borrowed<AirScratch> scratch;
-        write_wrenches(*parts, AirEvaluation(*parts, at, *scratch), out);
-    };
-    field.jacobian = [parts = parts_](const FieldInput& at, const MatrixOut& by_q, const MatrixOut& by_qd) {
-        Borrowed<AirScratch> scratch;
-        AirEvaluation(*parts, at, *scratch).add_derivatives(by_q, by_qd);
-    };
-    return field;
-}
-
-void MachineAir::add_lags(WrenchField& field) const {
-    field.states = states_of(*parts_, parts_->blade_numbers);
-    field.groups = groups_of(*parts_, parts_->body_ids);
-    field.evaluate = [parts = parts_](const FieldInput& at, std::span<Wrench> out, const VectorOut& rates) {
+    element.evaluate = [parts = parts_](const ElementView& at, ElementForces& out) {
         Borrowed<AirScratch> scratch;
         const AirEvaluation air(*parts, at, *scratch);
-        write_wrenches(*parts, air, out);
-        air.rates(rates);
+        write_wrenches(*parts, air, out.wrenches);
+        if (out.f.size() > 0) air.rates(out.f);
     };
-    field.state_jacobian = [parts = parts_](const FieldInput& at, FieldJacobian& out) {
+    element.jacobian = [parts = parts_](const ElementView& at, ElementJacobian& out) {
         Borrowed<AirScratch> scratch;
         AirEvaluation(*parts, at, *scratch).add_derivatives(out);
     };
+    element.differences_by_inputs = !element.inputs.empty();
+    return element;
 }
 
 Turbine MachineAir::on(const Turbine& turbine) const {
     ForceSet forces = turbine.forces();
     if (!parts_->wind_input.empty()) forces.add_input({.name = parts_->wind_input, .unit = "m/s", .scale = 1});
-    forces.add_field(field());
-    if (!parts_->support.is_empty()) forces.add_field(parts_->support.field());
+    forces.add_element(element());
+    if (!parts_->support.is_empty()) forces.add_element(parts_->support.element());
     return turbine.with_forces(forces, text("in the air, ", in_words(parts_->wind)));
 }
 
-std::vector<std::vector<SectionAir>> MachineAir::sections(const FieldInput& at) const {
+std::vector<std::vector<SectionAir>> MachineAir::sections(const ElementView& at) const {
     Borrowed<AirScratch> scratch;
     const AirEvaluation air(*parts_, at, *scratch);
     std::vector<std::vector<SectionAir>> out(parts_->blades.size());
@@ -118,7 +105,7 @@ std::vector<std::vector<SectionAir>> MachineAir::sections(const FieldInput& at) 
     return out;
 }
 
-MachineAir::Rotor MachineAir::rotor(const FieldInput& at) const {
+MachineAir::Rotor MachineAir::rotor(const ElementView& at) const {
     Borrowed<AirScratch> scratch;
     const AirEvaluation air(*parts_, at, *scratch);
     Wrench sum;
@@ -126,7 +113,7 @@ MachineAir::Rotor MachineAir::rotor(const FieldInput& at) const {
     for (std::size_t k = 0; k < parts_->blades.size(); ++k)
         for (const AirPoint& point : parts_->blades[k].points) {
             const Wrench wrench = air.wrench(k, point);
-            const Vec3 place = place_of(at.kinematics, point.at);
+            const Vec3 place = place_of(at.system.kinematics, point.at);
             add_moved(sum, wrench, place, air.hub());
             work_rate += air.power(wrench, point.body, place);
         }
@@ -164,13 +151,14 @@ ChannelGroup MachineAir::channels() const {
                        .long_name = "on blades, tower and nacelle, all their motion",
                        .frame = "ground"}};
     group.sample = [air = *this](const DynamicView& in, double* values) {
-        const FieldInput at = air.input(in, in.forces);
+        const ElementValues own = air.values(in, in.forces);
+        const ElementView& at = own.view();
         const Rotor now = air.rotor(at);
         values[0] = air.wind().at(in.time).at(now.centre).head<2>().norm();
         values[1] = now.force.x();
         values[2] = now.moment.x();
         values[3] = now.power();
-        values[4] = now.work_rate + air.support().work_rate(at);
+        values[4] = now.work_rate + air.support().work_rate(in);
     };
     return group;
 }

@@ -53,11 +53,11 @@ public:
     /// The same in another wind.
     MachineAir in(const Wind& wind) const;
 
-    /// The same with air that lags. Functions of a state then take the states of the air as well: input().
+    /// The same with air that lags. Functions of a state then take the states of the air as well: values().
     /// @throws InputError for another number of profiles than of polars, a time that is not positive
     MachineAir lagging(AirLagOptions options) const;
     /// Likewise, the induced velocities being those of a state for ever; profiles lag as they do.
-    MachineAir with_frozen_wake(const FieldInput& at) const;
+    MachineAir with_frozen_wake(const ElementView& at) const;
     /// The mean of several states, such as those of a revolution: sections().
     /// @throws InputError for none, and those of another machine
     MachineAir with_frozen_wake(std::span<const std::vector<std::vector<SectionAir>>> states) const;
@@ -66,24 +66,25 @@ public:
     /// not.
     MachineAir with_wind_input(const std::string& name = "wind speed") const;
     int states() const;
-    /// A motion with those of the system's states that are the air's.
+    /// What the air sees of a motion: of its own states and of its input.
     /// @param forces  of on()
-    FieldInput input(const StateView& at, const Forces& forces) const;
+    ElementValues values(const StateView& at, const Forces& forces) const;
     /// States that stay as they are while the machine moves as it does.
-    Vector steady_states(const FieldInput& at) const;
+    Vector steady_states(const ElementView& at) const;
     /// tau_1 of a dynamic wake by the mean induction and wind of a state, s: inflow_time().
-    double wake_time(const FieldInput& at) const;
+    double wake_time(const ElementView& at) const;
 
-    /// "air": forces on the blades, for ForceSet::add_field(); those on tower and nacelle: support().field(). Valid for
-    /// every machine with the tree of `turbine`. Exact derivatives; no allocation. Loads per length are linear between
-    /// the sections and do the same work on the beam's rigid segments as spread along them. With a skewed wake
+    /// "air": forces on the blades, for ForceSet::add_element(); those on tower and nacelle: support().element(). Valid
+    /// for every machine with the tree of `turbine`. Exact derivatives; no allocation. Loads per length are linear
+    /// between the sections and do the same work on the beam's rigid segments as spread along them. With a skewed wake
     /// (Skew::pitt_peters) every blade feels all others through the mean wind, so derivatives are full matrices.
-    WrenchField field() const;
-    /// The machine with all forces of the air added to its own: field() and, where there is drag, support().field().
+    ForceElement element() const;
+    /// The machine with all forces of the air added to its own: element() and, where there is drag,
+    /// support().element().
     Turbine on(const Turbine& turbine) const;
 
     /// At a state; forces per length, as in a rotor that does not bend (RotorAir): by blade, from root to tip.
-    std::vector<std::vector<SectionAir>> sections(const FieldInput& at) const;
+    std::vector<std::vector<SectionAir>> sections(const ElementView& at) const;
     /// Force and moment of the air on the rotor about the rotor's centre, in axes of the shaft that do not turn: x
     /// downwind along the shaft, z up.
     struct Rotor {
@@ -93,7 +94,7 @@ public:
         Vec3 centre;         ///< of the rotor, base axes, m
         double power() const { return moment.x() * speed; }
     };
-    Rotor rotor(const FieldInput& at) const;
+    Rotor rotor(const ElementView& at) const;
     /// Wind at the rotor's centre, thrust, torque and power of the air on the rotor, rate of its work on all motions,
     /// those of tower and nacelle included.
     ChannelGroup channels() const;
@@ -110,7 +111,6 @@ public:
 private:
     struct Parts;
     explicit MachineAir(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
-    void add_lags(WrenchField& field) const;
     MachineAir with(AirLags lags) const;
 
     std::shared_ptr<const Parts> parts_;

@@ -191,23 +191,22 @@ TowerAir TowerAir::in(const Wind& wind) const {
     return other;
 }
 
-WrenchField TowerAir::field() const {
-    WrenchField field{
-        .name = "air on the tower", .points = {}, .wrenches = {}, .jacobian = {}, .breaks = parts_->wind.breaks()};
-    field.points.reserve(parts_->points.size());
-    for (const AirPoint& point : parts_->points) field.points.push_back(point.at);
-    field.wrenches = [parts = parts_](const StateView& at, std::span<Wrench> out) {
+ForceElement TowerAir::element() const {
+    ForceElement element{.name = "air on the tower", .breaks = parts_->wind.breaks()};
+    element.points.reserve(parts_->points.size());
+    for (const AirPoint& point : parts_->points) element.points.push_back(point.at);
+    element.evaluate = [parts = parts_](const ElementView& at, ElementForces& out) {
         Borrowed<DragScratch> scratch;
-        const DragEvaluation air(parts->wind, parts->sites, parts->path, at, *scratch);
+        const DragEvaluation air(parts->wind, parts->sites, parts->path, at.system, *scratch);
         std::size_t next = 0;
-        for (const AirPoint& point : parts->points) out[next++] = air.wrench(point);
+        for (const AirPoint& point : parts->points) out.wrenches[next++] = air.wrench(point);
     };
-    field.jacobian = [parts = parts_](const StateView& at, const MatrixOut& by_q, const MatrixOut& by_qd) {
+    element.jacobian = [parts = parts_](const ElementView& at, ElementJacobian& out) {
         Borrowed<DragScratch> scratch;
-        DragEvaluation(parts->wind, parts->sites, parts->path, at, *scratch)
-            .add_derivatives(parts->points, by_q, by_qd);
+        DragEvaluation(parts->wind, parts->sites, parts->path, at.system, *scratch)
+            .add_derivatives(parts->points, out.Q_q, out.Q_qd);
     };
-    return field;
+    return element;
 }
 
 std::vector<Vec3> TowerAir::tower(const StateView& at) const {

@@ -5,7 +5,7 @@
 ///     0.5}}},
 ///                                  SteadyWind{.speed = 8});
 ///     ForceSet forces = machine.forces();
-///     forces.add_field(air.field());
+///     forces.add_element(air.element());
 ///
 /// Per length of the tower, which bends and moves,
 ///
@@ -36,9 +36,9 @@ public:
     /// The same in another wind.
     TowerAir in(const Wind& wind) const;
 
-    /// "air on the tower": its forces, for ForceSet::add_field(); valid for every machine with the tree of `turbine`.
+    /// "air on the tower": its forces, for ForceSet::add_element(); valid for every machine with the tree of `turbine`.
     /// Exact derivatives; no allocation. Loads do the same work on the beam's rigid segments as spread along them.
-    WrenchField field() const;
+    ForceElement element() const;
 
     /// At a state, base axes: forces per length at the rows of the table, N/m, from the foot upwards.
     std::vector<Vec3> tower(const StateView& at) const;

@@ -56,9 +56,7 @@ ForceSet without_springs(const ForceSet& all, const std::vector<BodyId>& coordin
     for (const LinearLaw& law : all.laws())
         if (std::ranges::none_of(coordinates, [&](BodyId at) { return holds_only(law, at); })) rest.add_law(law);
     for (const FrameLoad& load : all.loads()) rest.add_wrench(load);
-    for (const UserForce& force : all.users()) rest.add_user(force);
-    for (const WrenchField& field : all.fields()) rest.add_field(field);
-    for (const StateElement& element : all.state_elements()) rest.add_states(element);
+    for (const ForceElement& element : all.elements()) rest.add_element(element);
     for (const InputInfo& input : all.inputs()) rest.add_input(input);
     rest.set_gravity(all.gravity());
     return rest;
@@ -79,13 +77,14 @@ const LinearLaw* spring_of(const ForceSet& forces, BodyId coordinate) {
 }
 
 // The demand moves the spring's rest: what it does counts as put in from outside.
-StateElement moved_rest(const std::string& name, const ControlSignal& rest, BodyId coordinate, double stiffness) {
-    StateElement element = signal_force(name, rest, coordinate, stiffness);
-    element.power = [rates = element.rates](const StateInput& in) {
+ForceElement moved_rest(const std::string& name, const ControlSignal& rest, BodyId coordinate, double stiffness) {
+    ForceElement element = signal_force(name, rest, coordinate, stiffness);
+    element.power = [evaluate = element.evaluate](const ElementView& in) {
         Eigen::Matrix<double, 1, 1> Q = Eigen::Matrix<double, 1, 1>::Zero();
         Vector none;
-        rates(in, Q, none);
-        return StatePower{0, Q(0) * in.qd(0), 0};
+        ElementForces out{Q, none, {}};
+        evaluate(in, out);
+        return ElementPower{0, Q(0) * in.qd(0), 0};
     };
     return element;
 }
@@ -223,8 +222,8 @@ void ActuatedForces::add_pitch(ForceSet& forces, std::size_t k, const ControlSig
     const int number = layout_.blade_numbers[k];
     if (bearing.prescribed) return;
     if (options_.pitch_frequency == 0) {
-        forces.add_states(moved_rest(text("blade ", number, " pitch demand on its spring"),
-                                     signal::constant(setting) - demand, layout_.pitch[k], bearing.stiffness));
+        forces.add_element(moved_rest(text("blade ", number, " pitch demand on its spring"),
+                                      signal::constant(setting) - demand, layout_.pitch[k], bearing.stiffness));
         return;
     }
     Actuator drive{.name = {.name = pitch_state(number),
@@ -237,7 +236,7 @@ void ActuatedForces::add_pitch(ForceSet& forces, std::size_t k, const ControlSig
                    .frequency = options_.pitch_frequency,
                    .damping = options_.pitch_damping};
     if (options_.largest_pitch_rate > 0) drive.rates = {-options_.largest_pitch_rate, options_.largest_pitch_rate};
-    forces.add_states(
+    forces.add_element(
         position_actuator(drive, layout_.pitch[k], bearing.stiffness, bearing.damping, -1, setting).element);
 }
 
@@ -251,9 +250,9 @@ ForceSet ActuatedForces::with_any(const ActuatorDemands& demands, double torque)
         .time_constant = options_.torque_time_constant};
     if (options_.largest_torque_rate > 0)
         generator.rates = {-options_.largest_torque_rate, options_.largest_torque_rate};
-    forces.add_states(options_.torque_on_shaft
-                          ? force_actuator(generator, *layout_.generator, -layout_.gear_ratio).element
-                          : actuator(generator).element);
+    forces.add_element(options_.torque_on_shaft
+                           ? force_actuator(generator, *layout_.generator, -layout_.gear_ratio).element
+                           : actuator(generator).element);
     return forces;
 }
 

@@ -28,7 +28,7 @@ ElectricWt600 electric_wt600(const ElectricWt600Options& options) {
                                  .order = options.order,
                                  .running = options.running};
     ForceSet forces = bare.turbine.forces();
-    forces.add_states(induction_generator(generator));
+    forces.add_element(induction_generator(generator));
     ElectricWt600 machine{.turbine = bare.turbine.with_forces(forces),
                           .generator = generator,
                           .rotor = std::move(bare.rotor),

@@ -122,22 +122,20 @@ Wt600Operation wt600_operation(const Wt600OperationOptions& options) {
 
     ForceSet forces = bare.forces();
     const bool generator = options.generator != Wt600Generator::none;
-    if (generator) forces.add_user(generator_force(machine.generator));
-    forces.add_user(brake_force(machine.brake));
-    forces.add_user(rotor_load_force(machine.rotor));
+    if (generator) forces.add_element(generator_force(machine.generator));
+    forces.add_element(brake_force(machine.brake));
+    forces.add_element(rotor_load_force(machine.rotor));
     std::vector<ChannelGroup> more{brake_channels(machine.brake), rotor_load_channels(machine.rotor)};
     if (generator) more.insert(more.begin(), generator_channels(machine.generator));
     for (std::size_t k = 0; k < layout.pitch.size(); ++k) {
         ElasticDrive drive{
             text("blade ", k + 1, " pitch drive"), layout.pitch[k], mechanism.stiffness, 0, machine.pitch, -1};
         if (options.assembly.joint_damping) drive.damping = mechanism.damping;
-        forces.add_user(drive_force(drive));
+        forces.add_element(drive_force(drive));
         more.push_back(drive_channels(drive));
     }
     machine.turbine = bare.with_forces(forces);
-    machine.channels =
-        channels(machine.turbine,
-                 {{machine.rotor.hub, [rotor = machine.rotor](const StateView& in) { return rotor.wrench(in); }}});
+    machine.channels = channels(machine.turbine);
     machine.channels.insert(machine.channels.end(), more.begin(), more.end());
     return machine;
 }

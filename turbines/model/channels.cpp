@@ -12,12 +12,10 @@ namespace cardan::turbines {
 namespace {
 
 // At the root or the tip of a beam, base axes, about the node there.
-Wrench beam_load(const ChannelSource& source, const DynamicView& in, const CardanBeam& beam, bool tip, int subtree) {
+Wrench beam_load(const DynamicView& in, const CardanBeam& beam, bool tip) {
     const Pose<double> node = pose(in.kinematics, tip ? beam.tip() : beam.nodes.front());
     const Vec6 load = equilibrium_loads(beam, in.kinematics, in.forces, in.loads(), tip ? beam.line.length : 0).values;
-    Wrench sum{node.R * load.head<3>(), node.R * load.tail<3>()};
-    add_external(sum, source, in, subtree, node.p);
-    return sum;
+    return {node.R * load.head<3>(), node.R * load.tail<3>()};
 }
 
 // Forces along and moments about x, y, z of some axes.
@@ -81,7 +79,6 @@ ChannelGroup rotor_channels(const Shared& source) {
         const auto joint = static_cast<std::size_t>(hub_body);
         Wrench load;
         add_moved(load, in.loads().joint[joint], kin.origin(hub_body), hub.p, -1);
-        add_external(load, *source, in, hub_body, hub.p);
         values[3] = axis.dot(load.moment);
     };
     return group;
@@ -182,19 +179,13 @@ ChannelGroup tower_load_channels(const Shared& source) {
     add_loads(group, "tower top", "tower top", "tower top", "YawBrF", "YawBrM", "p",
               {"fore-aft shear force", "side-side shear force", "axial force (tension positive)", "roll moment",
                "pitching moment", "yaw moment"});
-    const std::optional<RigidTower> rigid =
-        source->layout().tower ? std::nullopt : std::optional<RigidTower>(source->turbine);
+    const std::optional<RigidTower> rigid = source->layout().tower ? std::nullopt : std::optional<RigidTower>(*source);
     group.sample = [source, rigid](const DynamicView& in, double* values) {
         const std::optional<CardanBeam>& tower = source->layout().tower;
-        const Model& model = in.kinematics.model();
         const Mat3 foot = foot_axes(pose(in.kinematics, source->layout().tower_foot).R),
                    top = pose(in.kinematics, source->layout().tower_top).R;
-        const Wrench base_load =
-                         rigid ? rigid->foot_load(*source, in)
-                               : beam_load(*source, in, *tower, false, model.index(tower->elements.front().bodies[0])),
-                     top_load = rigid ? rigid->top_load(*source, in)
-                                      : beam_load(*source, in, *tower, true,
-                                                  model.index(tower->elements.back().bodies.back()));
+        const Wrench base_load = rigid ? rigid->foot_load(*source, in) : beam_load(in, *tower, false),
+                     top_load = rigid ? rigid->top_load(*source, in) : beam_load(in, *tower, true);
         write(foot.transpose() * base_load.force, values);
         write(foot.transpose() * base_load.moment, values);
         write(top.transpose() * top_load.force, values);
@@ -269,8 +260,7 @@ ChannelGroup blade_load_channels(const Shared& source, std::size_t k) {
     group.sample = [source, k](const DynamicView& in, double* values) {
         const MachineLayout& layout = source->layout();
         const CardanBeam& beam = layout.blades[k];
-        const BodyId first = layout.pitch.empty() ? beam.elements.front().bodies[0] : layout.pitch[k];
-        const Wrench load = beam_load(*source, in, beam, false, in.kinematics.model().index(first));
+        const Wrench load = beam_load(in, beam, false);
         const Mat3 b = openfast_axes(pose(in.kinematics, layout.blade_roots[k]).R),
                    c = openfast_axes(pose(in.kinematics, layout.pitch_axes[k]).R);
         write(b.transpose() * load.force, values);
@@ -283,8 +273,8 @@ ChannelGroup blade_load_channels(const Shared& source, std::size_t k) {
 
 }  // namespace
 
-std::vector<ChannelGroup> channels(const Turbine& turbine, std::vector<ExternalWrench> external) {
-    const Shared source = shared_source(turbine, std::move(external));
+std::vector<ChannelGroup> channels(const Turbine& turbine) {
+    const Shared source = std::make_shared<const Turbine>(turbine);
     std::vector<ChannelGroup> groups{rotor_channels(source)};
     if (turbine.layout().teeter) groups.push_back(teeter_channels(source));
     if (turbine.layout().platform) groups.push_back(platform_channels(source));

@@ -18,20 +18,11 @@
 
 namespace cardan::turbines {
 
-/// A user force expressed as a wrench: force (N) and moment (N m) at a frame's origin, base axes. Without it, loads by
-/// equilibrium cannot take a user force into account. Wrenches of the force set, also those that change with time
-/// (elements/machine/load_over_time.hpp), need none.
-struct ExternalWrench {
-    FrameId frame = {};
-    std::function<Wrench(const StateView&)> wrench = {};
-};
-
 /// Channels of those of rotor, tower (also one that is rigid) and blades that the machine has. Loads follow from
-/// equilibrium of everything outboard: inertial forces, gravity, wrenches of the force set and `external`. User forces
-/// not listed there are ignored, which makes no difference for those inside joints (generator, brake, drives).
-/// @throws InputError for an external wrench without a function or on the base
+/// equilibrium of everything outboard: inertial forces, gravity, wrenches and elements with points. Forces of
+/// elements on coordinates are ignored, which makes no difference for those inside joints (generator, brake, drives).
 /// Sections between the ends of blades and tower: station_channels().
-std::vector<ChannelGroup> channels(const Turbine& turbine, std::vector<ExternalWrench> external = {});
+std::vector<ChannelGroup> channels(const Turbine& turbine);
 
 /// Channels of every driven coordinate: its position, "platform surge" ..., and the force of its drive, "platform surge
 /// drive" ..., N or N m.

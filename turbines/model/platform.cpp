@@ -96,33 +96,12 @@ Mat6 stiffness_of_constant_forces(const ForceSet& forces, const Tree& tree, cons
 }
 
 // Q = -K x; not elastic.
-UserForce linear_load(std::string name, const MovingBase& base, const Mat6& K) {
-    const auto at = [coordinates = base.coordinates](const StateView& in) {
-        std::array<int, 6> indices{};
-        std::ranges::transform(coordinates, indices.begin(),
-                               [&](BodyId body) { return in.kinematics.model().index(body); });
-        return indices;
-    };
-    UserForce load;
-    load.name = std::move(name);
-    load.force = [at, K](const StateView& in, VectorOut Q) {
-        const std::array<int, 6> x = at(in);
-        for (std::size_t i = 0; i < 6; ++i)
-            for (std::size_t j = 0; j < 6; ++j)
-                Q(x[i]) -= K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * in.q(x[j]);
-    };
-    load.jacobian = [at, K](const StateView& in, MatrixOut dQ_dq, const MatrixOut& /*dQ_dqd*/) {
-        const std::array<int, 6> x = at(in);
-        for (std::size_t i = 0; i < 6; ++i)
-            for (std::size_t j = 0; j < 6; ++j)
-                dQ_dq(x[i], x[j]) -= K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    };
-    load.energy = [at, K](const StateView& in) {
-        const std::array<int, 6> x = at(in);
-        Vec6 now;
-        for (std::size_t i = 0; i < 6; ++i) now(static_cast<Eigen::Index>(i)) = in.q(x[i]);
-        return now.dot(K * now) / 2;
-    };
+ForceElement linear_load(std::string name, const MovingBase& base, const Mat6& K) {
+    ForceElement load{.name = std::move(name)};
+    load.coordinates.assign(base.coordinates.begin(), base.coordinates.end());
+    load.evaluate = [K](const ElementView& in, ElementForces& out) { out.Q = -K * in.q; };
+    load.jacobian = [K](const ElementView&, ElementJacobian& d) { d.Q_q = -K; };
+    load.potential = [K](const ElementView& in) { return in.q.dot(K * in.q) / 2; };
     return load;
 }
 
@@ -206,7 +185,7 @@ void add_water_forces(ForceSet& forces, Tree& tree, const MovingBase& base, cons
         forces.add_law({"platform stiffness", bodies, K});
     }
     if (const Mat6 rest = water - elastic; !rest.isZero(0))
-        forces.add_user(linear_load("platform, weights and buoyancy in that stiffness", base, rest));
+        forces.add_element(linear_load("platform, weights and buoyancy in that stiffness", base, rest));
 }
 
 namespace {

@@ -52,14 +52,11 @@ Vec3 rotation_vector(const Mat3& R) {
     return turn.angle() * turn.axis();
 }
 
-void sample(const Gauge& gauge, const ChannelSource& source, const DynamicView& in, double* values) {
+void sample(const Gauge& gauge, const DynamicView& in, double* values) {
     const Kinematics& kin = in.kinematics;
     const Pose<double> here = gauge.station.pose(kin), root = pose(kin, gauge.root);
     const Mat3 to_local = (here.R * gauge.local_axes).transpose(), to_root = gauge.root_axes.transpose();
     Wrench load = gauge.station.load(kin, in.forces, in.loads());
-    for (const ExternalWrench& external : source.external)
-        if (gauge.station.is_inboard_of(external.frame, kin))
-            add_moved(load, external.wrench(in), pose(kin, external.frame).p, here.p);
     const Vec3 moved = root.R.transpose() * (here.p - root.p) - gauge.undeformed.p;
     const Mat3 turned = root.R.transpose() * here.R * gauge.undeformed.R.transpose();
     const Vec3 acceleration = gauge.station.acceleration(kin, in.loads());
@@ -99,57 +96,54 @@ ChannelGroup group_at(const BeamNames& names, std::size_t number, double place) 
     return group;
 }
 
-void add_stations(std::vector<ChannelGroup>& groups, const Shared& source, const BeamNames& names,
-                  const CardanBeam& beam, const std::vector<double>& places,
-                  const std::function<Gauge(double place)>& gauge) {
+void add_stations(std::vector<ChannelGroup>& groups, const BeamNames& names, const CardanBeam& beam,
+                  const std::vector<double>& places, const std::function<Gauge(double place)>& gauge) {
     check(names.beam, beam.line.length, places);
     for (std::size_t i = 0; i < places.size(); ++i) {
         groups.push_back(group_at(names, i + 1, places[i]));
-        groups.back().sample = [source, own = gauge(places[i])](const DynamicView& in, double* values) {
-            sample(own, *source, in, values);
+        groups.back().sample = [own = gauge(places[i])](const DynamicView& in, double* values) {
+            sample(own, in, values);
         };
     }
 }
 
-void add_blade(std::vector<ChannelGroup>& groups, const Shared& source, std::size_t k,
+void add_blade(std::vector<ChannelGroup>& groups, const MachineLayout& layout, std::size_t k,
                const std::vector<double>& places) {
-    const int number = source->layout().blade_numbers[k];
-    const CardanBeam& beam = source->layout().blades[k];
+    const int number = layout.blade_numbers[k];
+    const CardanBeam& beam = layout.blades[k];
     const std::string blade = text("blade ", number);
     const BeamNames names{blade,
                           blade,
                           number <= 3 ? "Spn" : "",
                           text("b", number),
                           {"downwind", "toward the trailing edge", "to the tip"}};
-    add_stations(groups, source, names, beam, places, [&](double s) {
-        return Gauge{BeamStation(beam, s), source->layout().blade_roots[k], beam.line.pose(s),
-                     openfast_axes(Mat3::Identity()), openfast_axes(rot_x(beam.line.section(s).beta))};
+    add_stations(groups, names, beam, places, [&](double s) {
+        return Gauge{BeamStation(beam, s), layout.blade_roots[k], beam.line.pose(s), openfast_axes(Mat3::Identity()),
+                     openfast_axes(rot_x(beam.line.section(s).beta))};
     });
 }
 
-void add_tower(std::vector<ChannelGroup>& groups, const Shared& source, const std::vector<double>& places) {
-    const CardanBeam& beam = *source->layout().tower;
+void add_tower(std::vector<ChannelGroup>& groups, const MachineLayout& layout, const std::vector<double>& places) {
+    const CardanBeam& beam = *layout.tower;
     const Mat3 axes = foot_axes(Mat3::Identity());
     const BeamNames names{"tower", "tower base", "TwHt", "t", {"downwind", "to the left", "upward"}};
-    add_stations(groups, source, names, beam, places, [&](double s) {
-        return Gauge{BeamStation(beam, s), source->layout().tower_foot, beam.line.pose(s), axes, axes};
+    add_stations(groups, names, beam, places, [&](double s) {
+        return Gauge{BeamStation(beam, s), layout.tower_foot, beam.line.pose(s), axes, axes};
     });
 }
 
 }  // namespace
 
-std::vector<ChannelGroup> station_channels(const Turbine& turbine, const Stations& stations,
-                                           std::vector<ExternalWrench> external) {
-    const Shared source = shared_source(turbine, std::move(external));
-    const MachineLayout& layout = source->layout();
+std::vector<ChannelGroup> station_channels(const Turbine& turbine, const Stations& stations) {
+    const MachineLayout& layout = turbine.layout();
     if (layout.blades.empty() && !stations.blades.empty())
         throw InputError("stations of blades", "number", stations.blades.size(), "0: the machine has no blades");
     if (!layout.tower && !stations.tower.empty())
         throw InputError("stations of tower", "number", stations.tower.size(),
                          layout.tower_top == FrameId{} ? "0: the machine has no tower" : "0: the tower is rigid");
     std::vector<ChannelGroup> groups;
-    if (layout.tower) add_tower(groups, source, stations.tower);
-    for (std::size_t k = 0; k < layout.blades.size(); ++k) add_blade(groups, source, k, stations.blades);
+    if (layout.tower) add_tower(groups, layout, stations.tower);
+    for (std::size_t k = 0; k < layout.blades.size(); ++k) add_blade(groups, layout, k, stations.blades);
     return groups;
 }
 

@@ -34,12 +34,9 @@ struct Stations {
 
 /// One group per station, to be recorded or linearised beside those of channels(). Deflections, rotations and the
 /// direction of local axes are most accurate where an element ends, see BeamStation. Sampling allocates nothing.
-/// @param external  as for channels()
 ///
 /// @throws InputError naming the beam: more than 9 stations; one that is not a number, beyond the beam or given twice;
-/// stations of blades that the machine does not have, or of a tower that it does not have or that is rigid; an external
-/// wrench as channels() does
-std::vector<ChannelGroup> station_channels(const Turbine& turbine, const Stations& stations,
-                                           std::vector<ExternalWrench> external = {});
+/// stations of blades that the machine does not have, or of a tower that it does not have or that is rigid
+std::vector<ChannelGroup> station_channels(const Turbine& turbine, const Stations& stations);
 
 }  // namespace cardan::turbines

@@ -17,24 +17,6 @@ bool stands_on(const Tree& tree, FrameId frame, FrameId support) {
 
 }  // namespace
 
-Shared shared_source(const Turbine& turbine, std::vector<ExternalWrench> external) {
-    for (const ExternalWrench& load : external) {
-        if (!load.wrench)
-            throw InputError("channels of a turbine", "external wrench", "without a function", "one with");
-        if (turbine.system().model.frame(load.frame).body < 0)
-            throw InputError("channels of a turbine", "external wrench on the frame",
-                             turbine.system().model.frame(load.frame).name, "a frame of a body");
-    }
-    return std::make_shared<const ChannelSource>(ChannelSource{turbine, std::move(external)});
-}
-
-void add_external(Wrench& sum, const ChannelSource& source, const DynamicView& in, int subtree, const Vec3& at) {
-    const Kinematics& kin = in.kinematics;
-    for (const ExternalWrench& load : source.external)
-        if (kin.model().precedes(subtree, kin.model().frame(load.frame).body))
-            add_moved(sum, load.wrench(in), pose(kin, load.frame).p, at);
-}
-
 RigidTower::RigidTower(const Turbine& turbine) : carrier_(Tree::base()) {
     const Model& model = turbine.system().model;
     const Tree& tree = turbine.tree();
@@ -65,32 +47,29 @@ void RigidTower::add_part(Wrench& sum, const RigidInertia& part, const DynamicVi
     add_moved(sum, load, centre, at);
 }
 
-Wrench RigidTower::load_above(FrameId cut, const ChannelSource& source, const DynamicView& in) const {
+Wrench RigidTower::load_above(FrameId cut, const Turbine& source, const DynamicView& in) const {
     const Kinematics& kin = in.kinematics;
-    const Tree& tree = source.turbine.tree();
+    const Tree& tree = source.tree();
     const Vec3 at = pose(kin, cut).p;
     Wrench sum;
     for (const int joint : joints_) {
         add_moved(sum, in.loads().joint[static_cast<std::size_t>(joint)], kin.origin(joint), at, -1);
-        add_external(sum, source, in, joint, at);
     }
     add_part(sum, head_, in, at);
     for (const FrameLoad& load : in.forces.loads())
         if (stands_on(tree, load.frame, cut))
             add_moved(sum, in.forces.at_frame(load, kin, in.time), pose(kin, load.frame).p, at);
-    for_each_point(in.forces, in.loads(), [&](const FieldPoint& point, const Wrench& load) {
+    for_each_point(in.forces, in.loads(), [&](const FramePoint& point, const Wrench& load) {
         if (stands_on(tree, point.frame, cut)) add_moved(sum, load, place_of(kin, point), at);
     });
-    for (const ExternalWrench& load : source.external)
-        if (stands_on(tree, load.frame, cut)) add_moved(sum, load.wrench(in), pose(kin, load.frame).p, at);
     return sum;
 }
 
-Wrench RigidTower::top_load(const ChannelSource& source, const DynamicView& in) const {
+Wrench RigidTower::top_load(const Turbine& source, const DynamicView& in) const {
     return load_above(source.layout().tower_top, source, in);
 }
 
-Wrench RigidTower::foot_load(const ChannelSource& source, const DynamicView& in) const {
+Wrench RigidTower::foot_load(const Turbine& source, const DynamicView& in) const {
     Wrench sum = load_above(source.layout().tower_foot, source, in);
     add_part(sum, tower_, in, pose(in.kinematics, source.layout().tower_foot).p);
     return sum;

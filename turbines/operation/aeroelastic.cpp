@@ -25,18 +25,18 @@ public:
     std::vector<std::vector<std::vector<SectionAir>>> sections() const {
         std::vector<std::vector<std::vector<SectionAir>>> all;
         all.reserve(point_.revolution.size());
-        each([&](const FieldInput& at) { all.push_back(air_.sections(at)); });
+        each([&](const ElementView& at) { all.push_back(air_.sections(at)); });
         return all;
     }
     double wake_time() const {
         double sum = 0;
-        each([&](const FieldInput& at) { sum += air_.wake_time(at); });
+        each([&](const ElementView& at) { sum += air_.wake_time(at); });
         return sum / static_cast<double>(point_.revolution.size());
     }
     /// @param air  that lags
     Vector steady_states(const MachineAir& air) const {
         Vector sum = Vector::Zero(air.states());
-        each([&](const FieldInput& at) { sum += air.steady_states(at); });
+        each([&](const ElementView& at) { sum += air.steady_states(at); });
         return sum / static_cast<double>(point_.revolution.size());
     }
 
@@ -46,7 +46,7 @@ private:
         Workspace workspace(model_);
         for (const DynamicState& state : point_.revolution) {
             const Kinematics kin = kinematics(model_, state.q, workspace);
-            f(FieldInput(StateView(state, kin)));
+            f(StateView(state, kin));
         }
     }
 

@@ -33,11 +33,11 @@ Eigen::LLT<CircuitEquations::Square> CircuitEquations::factorised(const Column& 
     return factors;
 }
 
-CircuitEquations::Column CircuitEquations::link_currents(const StateInput& in) const {
+CircuitEquations::Column CircuitEquations::link_currents(const ElementView& in) const {
     return factorised(in.q.head(coordinates)).solve(Column(in.s.head(links())));
 }
 
-CircuitEquations::Column CircuitEquations::source_voltages(const StateInput& in) const {
+CircuitEquations::Column CircuitEquations::source_voltages(const ElementView& in) const {
     Column v(std::ssize(sources));
     Gradient gradient;
     for (Eigen::Index k = 0; k < v.size(); ++k) {
@@ -48,11 +48,11 @@ CircuitEquations::Column CircuitEquations::source_voltages(const StateInput& in)
     return v;
 }
 
-CircuitEquations::Column CircuitEquations::forces(const StateInput& in) const {
+CircuitEquations::Column CircuitEquations::forces(const ElementView& in) const {
     return forces(in, link_currents(in));
 }
 
-CircuitEquations::Column CircuitEquations::forces(const StateInput& in, const Column& j) const {
+CircuitEquations::Column CircuitEquations::forces(const ElementView& in, const Column& j) const {
     Column Q = Column::Zero(coordinates);
     for (const Term& term : terms)
         Q(term.coordinate) += term.factor(in.q(term.coordinate)).slope / 2 * j.dot(term.shape.lazyProduct(j));
@@ -61,7 +61,7 @@ CircuitEquations::Column CircuitEquations::forces(const StateInput& in, const Co
     return Q;
 }
 
-void CircuitEquations::rates(const StateInput& in, VectorOut& Q, VectorOut& f) const {
+void CircuitEquations::rates(const ElementView& in, VectorOut& Q, VectorOut& f) const {
     const Column j = link_currents(in), v = source_voltages(in), u = in.s.tail(capacitance.size());
     Q.head(coordinates) += forces(in, j);
     auto flux = f.head(links());
@@ -74,7 +74,7 @@ void CircuitEquations::rates(const StateInput& in, VectorOut& Q, VectorOut& f) c
     }
 }
 
-void CircuitEquations::jacobian(const StateInput& in, StateJacobian& d) const {
+void CircuitEquations::jacobian(const ElementView& in, ElementJacobian& d) const {
     const Eigen::Index n = links(), capacitor_count = capacitance.size();
     const Column q = in.q.head(coordinates);
     const Eigen::LLT<Square> factors = factorised(q);
@@ -119,13 +119,13 @@ void CircuitEquations::jacobian(const StateInput& in, StateJacobian& d) const {
     }
 }
 
-Vector CircuitEquations::branch_currents(const StateInput& in) const {
+Vector CircuitEquations::branch_currents(const ElementView& in) const {
     return A_j * link_currents(in) + A_s * source_voltages(in) - A_c * in.s.tail(capacitance.size());
 }
 
-StatePower CircuitEquations::power(const StateInput& in) const {
+ElementPower CircuitEquations::power(const ElementView& in) const {
     const Column j = link_currents(in), v = source_voltages(in), u = in.s.tail(capacitance.size());
-    StatePower power;
+    ElementPower power;
     power.stored = j.dot(in.s.head(links())) / 2 + u.dot(capacitance.cwiseProduct(u)) / 2;
     for (Eigen::Index row = 0; row < resistance.size(); ++row) {
         const double i = A_j.row(row).dot(j) + A_s.row(row).dot(v) - A_c.row(row).dot(u);

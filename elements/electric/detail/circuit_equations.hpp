@@ -47,13 +47,13 @@ public:
     std::vector<Source> sources;
     Eigen::Index coordinates = 0;  ///< of terms and magnets: the first ones of the element
 
-    void rates(const StateInput& in, VectorOut& Q, VectorOut& f) const;
-    void jacobian(const StateInput& in, StateJacobian& d) const;
-    StatePower power(const StateInput& in) const;
+    void rates(const ElementView& in, VectorOut& Q, VectorOut& f) const;
+    void jacobian(const ElementView& in, ElementJacobian& d) const;
+    ElementPower power(const ElementView& in) const;
     /// Of all branches, A.
-    Vector branch_currents(const StateInput& in) const;
+    Vector branch_currents(const ElementView& in) const;
     /// Forces on the coordinates.
-    Column forces(const StateInput& in) const;
+    Column forces(const ElementView& in) const;
     /// @throws InputError unless the inductance matrix of the loops is positive definite
     void check(const Column& q) const { static_cast<void>(factorised(q)); }
     /// Of the loops, H, with all coordinates zero.
@@ -64,9 +64,9 @@ public:
 private:
     Square inductance(const Column& q) const;
     Eigen::LLT<Square> factorised(const Column& q) const;
-    Column source_voltages(const StateInput& in) const;
-    Column link_currents(const StateInput& in) const;
-    Column forces(const StateInput& in, const Column& j) const;
+    Column source_voltages(const ElementView& in) const;
+    Column link_currents(const ElementView& in) const;
+    Column forces(const ElementView& in, const Column& j) const;
     void refuse(const Column& q) const;
 };
 

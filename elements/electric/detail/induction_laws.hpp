@@ -96,8 +96,8 @@ struct FifthOrder {
     void operator()(const LawInput<S>& in, S* Q, S* f) const {
         flux_rates(in, state(in), Q, f);
     }
-    StatePower power(const LawInput<double>& in) const { return power(in, state(in)); }
-    StatePower power(const LawInput<double>& in, const MachineState<double>& at) const {
+    ElementPower power(const LawInput<double>& in) const { return power(in, state(in)); }
+    ElementPower power(const LawInput<double>& in, const MachineState<double>& at) const {
         return {.stored = 0.75 * (dot(pair(in.s), at.stator_current) + dot(pair(in.s + 2), at.rotor_current)),
                 .supplied = 1.5 * (dot(at.voltage, at.stator_current) + dot(at.rotor_voltage, at.rotor_current)),
                 .dissipated = 1.5 * (machine.stator_resistance(in.time) * dot(at.stator_current, at.stator_current) +
@@ -191,7 +191,7 @@ struct DoublyFed {
         f[4] = bandwidth * induction.machine.R_r * at.missing.d;
         f[5] = bandwidth * induction.machine.R_r * at.missing.q;
     }
-    StatePower power(const LawInput<double>& in) const { return induction.power(in, state(in)); }
+    ElementPower power(const LawInput<double>& in) const { return induction.power(in, state(in)); }
 };
 
 }  // namespace cardan::detail

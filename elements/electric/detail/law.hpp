@@ -4,7 +4,7 @@
 
 #include "elements/control/control_signal.hpp"
 #include "mbs/base/entry.hpp"
-#include "mbs/system/state_element.hpp"
+#include "mbs/system/force_element.hpp"
 
 #include <array>
 #include <memory>
@@ -27,12 +27,12 @@ class LawFunctions {
 public:
     static constexpr std::size_t most = 32;  ///< values that the law sees
 
-    LawFunctions(Law law, const std::vector<ControlSignal>& demands, StateElement& element)
+    LawFunctions(Law law, const std::vector<ControlSignal>& demands, ForceElement& element)
         : law_(std::move(law)), coordinates_(element.coordinates.size()), states_(element.states.size()) {
         for (const ControlSignal& demand : demands) demands_.emplace_back(demand, element);
     }
 
-    void rates(const StateInput& in, VectorOut& Q, VectorOut& f) const {
+    void rates(const ElementView& in, VectorOut& Q, VectorOut& f) const {
         Gradients gradients;
         const std::array<double, most> x = values<double>(in, gradients);
         std::array<double, most> out{};
@@ -41,7 +41,7 @@ public:
         for (std::size_t row = 0; row < states_; ++row) f(index(row)) += out[coordinates_ + row];
     }
 
-    void jacobian(const StateInput& in, StateJacobian& d) const {
+    void jacobian(const ElementView& in, ElementJacobian& d) const {
         constexpr double step = 1e-40;
         Gradients gradients;
         std::array<Complex, most> x = values<Complex>(in, gradients);
@@ -58,7 +58,7 @@ public:
     const Law& law() const { return law_; }
     /// Values as the law sees them.
     template <class S>
-    std::array<S, most> values(const StateInput& in) const {
+    std::array<S, most> values(const ElementView& in) const {
         Gradients gradients;
         return values<S>(in, gradients);
     }
@@ -75,7 +75,7 @@ private:
     static Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
     template <class S>
-    std::array<S, most> values(const StateInput& in, Gradients& gradients) const {
+    std::array<S, most> values(const ElementView& in, Gradients& gradients) const {
         std::array<S, most> x{};
         std::size_t n = 0;
         for (std::size_t i = 0; i < coordinates_; ++i) x[n++] = in.q(index(i));
@@ -85,7 +85,7 @@ private:
         return x;
     }
     // A derivative by one of the values.
-    void add(StateJacobian& d, std::size_t row, std::size_t column, double slope, const Gradients& gradients) const {
+    void add(ElementJacobian& d, std::size_t row, std::size_t column, double slope, const Gradients& gradients) const {
         const bool force = row < coordinates_;
         const Eigen::Index at = index(force ? row : row - coordinates_);
         if (column < coordinates_)
@@ -108,15 +108,15 @@ private:
     std::vector<ControlWire> demands_;
 };
 
-/// Gives the element the functions of a law; its power too, if it tells it by StatePower power(const
+/// Gives the element the functions of a law; its power too, if it tells it by ElementPower power(const
 /// LawInput<double>&).
 template <class Law>
-void set_law(StateElement& element, Law law, const std::vector<ControlSignal>& demands = {}) {
+void set_law(ForceElement& element, Law law, const std::vector<ControlSignal>& demands = {}) {
     const auto functions = std::make_shared<const LawFunctions<Law>>(std::move(law), demands, element);
-    element.rates = [functions](const StateInput& in, VectorOut Q, VectorOut f) { functions->rates(in, Q, f); };
-    element.jacobian = [functions](const StateInput& in, StateJacobian& d) { functions->jacobian(in, d); };
+    element.evaluate = [functions](const ElementView& in, ElementForces& out) { functions->rates(in, out.Q, out.f); };
+    element.jacobian = [functions](const ElementView& in, ElementJacobian& d) { functions->jacobian(in, d); };
     if constexpr (requires(const LawInput<double>& at) { functions->law().power(at); })
-        element.power = [functions](const StateInput& in) {
+        element.power = [functions](const ElementView& in) {
             const auto x = functions->template values<double>(in);
             return functions->law().power(functions->at(in.time, x));
         };

@@ -48,15 +48,16 @@ void machine_channel_values(const MachineState<double>& at, double omega, double
     if (fed_rotor) *values++ = std::sqrt(dot(at.rotor_voltage, at.rotor_voltage));
 }
 
-ChannelGroup torque_channels(const std::string& name, const std::string& alias, const StateElement& element,
+ChannelGroup torque_channels(const std::string& name, const std::string& alias, const ForceElement& element,
                              const MachineConstants& machine) {
     ChannelGroup group;
     group.channels = {
         torque_channel(name, alias),
         {.name = name + " power", .units = "W", .long_name = "power over the air gap: torque times synchronous speed"}};
-    group.sample = [element, speed = machine.omega / machine.pole_pairs](const DynamicView& in, double* values) {
-        const ElementValues own(element, in);
-        values[0] = own.input().s(0);
+    group.sample = [element = element.name, speed = machine.omega / machine.pole_pairs](const DynamicView& in,
+                                                                                        double* values) {
+        const ElementValues own(in.forces.elements(), element, in);
+        values[0] = own.view().s(0);
         values[1] = values[0] * speed;
     };
     return group;

@@ -2,8 +2,8 @@
 /// Channels of electric machines.
 #pragma once
 
-#include "elements/electric/detail/element_values.hpp"
 #include "elements/electric/detail/induction_laws.hpp"
+#include "mbs/system/channel.hpp"
 
 #include <string>
 #include <vector>
@@ -17,23 +17,22 @@ void machine_channel_values(const MachineState<double>& at, double omega, double
 
 /// @param omega  of the axes in which the currents are given, rad/s
 template <class Law>
-ChannelGroup machine_channels(const std::string& name, const std::string& alias, const StateElement& element, Law law,
+ChannelGroup machine_channels(const std::string& name, const std::string& alias, const ForceElement& element, Law law,
                               const std::vector<ControlSignal>& demands, double omega, bool fed_rotor) {
     ChannelGroup group;
     group.channels = machine_channel_names(name, alias, fed_rotor);
-    StateElement seen{.name = element.name, .states = element.states, .coordinates = {element.coordinates.front()}};
+    ForceElement seen{.name = element.name, .states = element.states, .coordinates = {element.coordinates.front()}};
     const auto functions = std::make_shared<const LawFunctions<Law>>(std::move(law), demands, seen);
-    group.sample = [functions, seen = std::move(seen), omega, fed_rotor](const DynamicView& in, double* values) {
-        const ElementValues own(seen, in);
-        const StateInput input = own.input();
-        const auto x = functions->template values<double>(input);
+    group.sample = [functions, element = element.name, omega, fed_rotor](const DynamicView& in, double* values) {
+        const ElementValues own(in.forces.elements(), element, in);
+        const auto x = functions->template values<double>(own.view());
         machine_channel_values(functions->law().state(functions->at(in.time, x)), omega, in.time, fed_rotor, values);
     };
     return group;
 }
 
 /// Of a machine that has nothing but a torque.
-ChannelGroup torque_channels(const std::string& name, const std::string& alias, const StateElement& element,
+ChannelGroup torque_channels(const std::string& name, const std::string& alias, const ForceElement& element,
                              const MachineConstants& machine);
 
 }  // namespace cardan::detail

@@ -42,7 +42,7 @@ RotorLoad rotor_of(const turbines::Turbine& turbine, std::function<double(double
 }
 
 ForceSet with_load(ForceSet forces, const RotorLoad& load) {
-    forces.add_user(rotor_load_force(load));
+    forces.add_element(rotor_load_force(load));
     return forces;
 }
 
@@ -64,7 +64,7 @@ ControlSignal add_damper(const DamperOptions& damper, const Plant& plant, ForceS
                                                    .frequency = damper.frequency,
                                                    .damping = damper.width,
                                                    .band_pass = true});
-    forces.add_states(band.element);
+    forces.add_element(band.element);
     return damper.gain * band.output;
 }
 
@@ -119,8 +119,8 @@ LinearLoop linear_loop(const Plant& plant, const DamperOptions& damper) {
     actuators.largest_torque_rate = parameters.largest_torque_rate;
     ForceSet forces = turbines::ActuatedForces(plant.turbine, actuators)
                           .with_demands({{loop.pitch}, loop.torque + damping}, plant.point.torque);
-    for (const StateElement& element : more.state_elements()) forces.add_states(element);
-    for (const ControlBlock* block : {&loop.filter, &loop.integral}) forces.add_states(block->element);
+    for (const ForceElement& element : more.elements()) forces.add_element(element);
+    for (const ControlBlock* block : {&loop.filter, &loop.integral}) forces.add_element(block->element);
     const turbines::Turbine turbine = plant.turbine.with_forces(with_load(forces, plant.rotor));
 
     DynamicState at = plant.start;

@@ -30,7 +30,7 @@ Machine machine_in_sag(const Plant& plant, const SagOptions& options) {
     generator.running_speed = layout.gear_ratio * plant.point.rotor_speed;
     generator.running_torque = plant.point.torque;
     ForceSet forces = machine.turbine.forces();
-    forces.add_states(doubly_fed_generator(generator));
+    forces.add_element(doubly_fed_generator(generator));
     machine.turbine = machine.turbine.with_forces(forces);
     return {std::move(machine), std::move(generator)};
 }
@@ -55,8 +55,7 @@ int sag(const MachineOptions& machine, const SagOptions& options, const std::str
     integration.controllers = {own.controlled.controller};
     solvers::Integrator integrator(turbine.system(), {}, 0, start.start.q, start.start.qd, integration);
     const RotorLoad rotor = rotor_in_wind(start, [wind = options.wind](double) { return wind; });
-    std::vector<ChannelGroup> channels =
-        turbines::channels(turbine, {{rotor.hub, [rotor](const StateView& in) { return rotor.wrench(in); }}});
+    std::vector<ChannelGroup> channels = turbines::channels(turbine);
     channels.push_back(own.controlled.channels);
     channels.push_back(doubly_fed_generator_channels(own.generator));
     solvers::Recorder recorder(integrator, std::move(channels));

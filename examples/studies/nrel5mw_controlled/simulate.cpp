@@ -18,8 +18,7 @@ Simulation::Simulation(const Plant& plant, const WindSteps& wind, const DamperOp
     integrator_ = std::make_unique<solvers::Integrator>(machine_.turbine.system(), std::vector<solvers::Drive>{}, 0,
                                                         plant.start.q, plant.start.qd, options);
     const RotorLoad rotor = rotor_in_wind(plant, [wind](double time) { return wind.at(time); });
-    std::vector<ChannelGroup> channels =
-        turbines::channels(machine_.turbine, {{rotor.hub, [rotor](const StateView& in) { return rotor.wrench(in); }}});
+    std::vector<ChannelGroup> channels = turbines::channels(machine_.turbine);
     channels.push_back(machine_.channels);
     channels.push_back(rotor_load_channels(rotor));
     recorder_ = std::make_unique<solvers::Recorder>(*integrator_, std::move(channels));

@@ -85,26 +85,26 @@ private:
             if (c.name == name) return true;
         return false;
     }
-    static UserForce flinging(const Load& load, FrameId root, const Model& model, const std::vector<BodyId>& integrals,
-                              bool plane) {
+    static ForceElement flinging(const Load& load, FrameId root, const Model& model,
+                                 const std::vector<BodyId>& integrals, bool plane) {
         std::array<int, 3> at{};
         for (std::size_t i = 0; i < 3; ++i) at[i] = model.index(integrals[i]);
-        UserForce user{.name = "load"};
-        user.force = [load, root, at](const StateView& in, VectorOut Q) {
+        ForceElement user{.name = "load", .points = {{Tree::base()}}};
+        user.evaluate = [load, root, at](const ElementView& in, ElementForces& out) {
             const double factor = load.factor(in.time);
-            Matrix J(6, Q.size());
-            frame_jacobian<double>(in.kinematics, root, J);
+            Matrix J(6, out.Q.size());
+            frame_jacobian<double>(in.system.kinematics, root, J);
             Vec6 wrench;
             wrench << factor * load.moment, factor * load.force;
-            Q += J.transpose() * wrench;
-            const Vec3 moment = wrench.head<3>() + pose(in.kinematics, root).p.cross(wrench.tail<3>());
-            for (int i = 0; i < 3; ++i) Q(entry(at, i)) += moment(i);
+            out.Q += J.transpose() * wrench;
+            const Vec3 moment = wrench.head<3>() + pose(in.system.kinematics, root).p.cross(wrench.tail<3>());
+            for (int i = 0; i < 3; ++i) out.Q(entry(at, i)) += moment(i);
         };
         // In the plane only the moment about the origin depends on the position.
         if (plane)
-            user.jacobian = [load, at](const StateView& in, MatrixOut by_q, MatrixOut) {
-                by_q(at[2], 0) += load.factor(in.time) * load.force.y();
-                by_q(at[2], 1) -= load.factor(in.time) * load.force.x();
+            user.jacobian = [load, at](const ElementView& in, ElementJacobian& d) {
+                d.Q_q(at[2], 0) += load.factor(in.time) * load.force.y();
+                d.Q_q(at[2], 1) -= load.factor(in.time) * load.force.x();
             };
         return user;
     }
@@ -134,7 +134,7 @@ private:
             integrals.push_back(testing::add_joint(tree, {name, Tree::base(), JointKind::prismatic}).body);
             tree.add_armature({name, armature, {{integrals.back(), 1.0}}});
         }
-        forces.add_user(flinging(load, root, Model(tree), integrals, plane));
+        forces.add_element(flinging(load, root, Model(tree), integrals, plane));
         return beam;
     }
 };

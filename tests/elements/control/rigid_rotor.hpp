@@ -33,15 +33,15 @@ struct RigidRotor {
     ControlSignal generator_speed() const { return ratio * signal::rate(shaft); }
     // The pitch as a state, with a lag behind its demand, and what the rotor makes of it.
     void add_pitch(const ControlSignal& demand, double torque) {
-        forces.add_states(actuator({.name = {.name = "pitch", .unit = "rad", .scale = 0.2, .initial = trim},
-                                    .demand = demand,
-                                    .time_constant = lag})
-                              .element);
-        forces.add_states(signal_force(
+        forces.add_element(actuator({.name = {.name = "pitch", .unit = "rad", .scale = 0.2, .initial = trim},
+                                     .demand = demand,
+                                     .time_constant = lag})
+                               .element);
+        forces.add_element(signal_force(
             "rotor", signal::constant(torque + sensitivity * trim) - sensitivity * signal::state("pitch"), shaft));
     }
     void add_generator(const ControlSignal& torque) {
-        forces.add_states(signal_force("generator", torque, shaft, -ratio));
+        forces.add_element(signal_force("generator", torque, shaft, -ratio));
     }
     System system() const { return {tree, forces}; }
 };

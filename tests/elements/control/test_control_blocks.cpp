@@ -34,13 +34,13 @@ BlockName named(const std::string& name) {
 }
 
 // Exact derivatives against those of the same element without its Jacobian.
-void check_derivatives(const StateElement& element, std::initializer_list<StateElement> others = {}) {
+void check_derivatives(const ForceElement& element, std::initializer_list<ForceElement> others = {}) {
     const auto with = [&](bool jacobian) {
         Bench bench;
-        StateElement own = element;
+        ForceElement own = element;
         if (!jacobian) own.jacobian = {};
-        bench.forces.add_states(own);
-        for (const StateElement& other : others) bench.forces.add_states(other);
+        bench.forces.add_element(own);
+        for (const ForceElement& other : others) bench.forces.add_element(other);
         return bench.system();
     };
     const System exact = with(true), differenced = with(false);
@@ -120,9 +120,9 @@ TEST_CASE("control blocks: soft limits keep value and slope continuous and are n
 TEST_CASE("control blocks: a low pass and a filter of second order answer a step in closed form", "[analytic]") {
     Bench bench;
     const double tau = 0.4, w = 3, damping = 0.2, step = 0.4;
-    bench.forces.add_states(low_pass({named("lag"), signal::input("demand"), tau}).element);
+    bench.forces.add_element(low_pass({named("lag"), signal::input("demand"), tau}).element);
     const ControlBlock band = second_order_filter({named("band"), signal::input("demand"), w, damping, true});
-    bench.forces.add_states(band.element);
+    bench.forces.add_element(band.element);
     const System system = bench.system();
     solvers::IntegrationOptions options;
     options.tolerances.relative = 1e-10;
@@ -142,7 +142,7 @@ TEST_CASE("control blocks: a low pass and a filter of second order answer a step
 TEST_CASE("control blocks: an actuator moves at its largest rate, and no further than its end", "[analytic]") {
     Bench bench;
     Actuator drive = pitch_drive(signal::constant(40) * signal::input("demand"));  // far beyond 1.5
-    bench.forces.add_states(actuator(drive).element);
+    bench.forces.add_element(actuator(drive).element);
     const System system = bench.system();
     solvers::Integrator run(system, {}, 0, Vector::Zero(2), Vector::Zero(2));
     REQUIRE(run.advance(1).reached());
@@ -165,14 +165,16 @@ TEST_CASE("control blocks: a PI controller brings a loaded shaft to its speed, a
                                            .integral = 20,
                                            .limits = {-12, 12},
                                            .unwinding = 0.5});
-    bench.forces.add_states(pi.element);
-    bench.forces.add_states(
+    bench.forces.add_element(pi.element);
+    bench.forces.add_element(
         force_actuator(
             {.name = {.name = "motor", .unit = "N m", .scale = 10}, .demand = pi.output, .time_constant = 0.05},
             bench.shaft)
             .element);
-    bench.forces.add_user(
-        {.name = "load", .force = [](const StateView& in, VectorOut Q) { Q(0) -= in.time < 5 ? 20 : 4; }});
+    bench.forces.add_element(
+        {.name = "load", .coordinates = {BodyId{0}}, .evaluate = [](const ElementView& in, ElementForces& out) {
+             out.Q(0) -= in.time < 5 ? 20 : 4;
+         }});
     const System system = bench.system();
     solvers::IntegrationOptions options;
     options.breaks = {5};
@@ -202,9 +204,9 @@ TEST_CASE("control blocks: evaluation allocates nothing", "[property]") {
                                            .proportional = 0.8,
                                            .integral = 0.5,
                                            .limits = {-0.4, 0.6}});
-    bench.forces.add_states(filter.element);
-    bench.forces.add_states(pi.element);
-    bench.forces.add_states(position_actuator(pitch_drive(pi.output), bench.vane, 60, 3).element);
+    bench.forces.add_element(filter.element);
+    bench.forces.add_element(pi.element);
+    bench.forces.add_element(position_actuator(pitch_drive(pi.output), bench.vane, 60, 3).element);
     const System system = bench.system();
     const Vector q = Vector::Constant(2, 0.2), s = Vector::Constant(3, 0.3), u = Vector::Constant(1, 0.1);
     CHECK(allocations_of_evaluation(system, {.q = q, .qd = q, .s = s, .u = u}) == 0);

@@ -72,7 +72,7 @@ Motion continuous(double torque) {
     const VariableSpeedEquivalent loop = loop_of(rotor, {parameters.reference_speed, rotor.trim});
     rotor.add_pitch(loop.pitch, torque);
     rotor.add_generator(loop.torque);
-    for (const ControlBlock* block : {&loop.filter, &loop.integral}) rotor.forces.add_states(block->element);
+    for (const ControlBlock* block : {&loop.filter, &loop.integral}) rotor.forces.add_element(block->element);
     return motion(rotor.system(), {}, {});
 }
 
@@ -115,8 +115,8 @@ TEST_CASE(
                                            .error = rotor.generator_speed() - signal::constant(97 * rotor.speed),
                                            .proportional = parameters.proportional,
                                            .integral = parameters.integral});
-    rotor.forces.add_states(pi.element);
-    rotor.forces.add_states(signal_force("rotor", pi.output, rotor.shaft, -rotor.sensitivity));
+    rotor.forces.add_element(pi.element);
+    rotor.forces.add_element(signal_force("rotor", pi.output, rotor.shaft, -rotor.sensitivity));
     const std::vector<solvers::Mode> modes = modes_at(rotor.system(), rotor.speed, Vector::Zero(1));
     REQUIRE(modes.size() == 1);
     const double b = rotor.sensitivity * rotor.ratio / rotor.J, p = b * parameters.proportional / 2;
@@ -134,7 +134,7 @@ TEST_CASE("variable-speed equivalent: eigenvalues of the closed loop are those o
     const VariableSpeedEquivalent loop = loop_of(rotor, {w0, rotor.trim});
     rotor.add_pitch(loop.pitch, P / rotor.speed);
     rotor.add_generator(loop.torque);
-    for (const ControlBlock* block : {&loop.filter, &loop.integral}) rotor.forces.add_states(block->element);
+    for (const ControlBlock* block : {&loop.filter, &loop.integral}) rotor.forces.add_element(block->element);
     const System system = rotor.system();
     const double g = 1 / (1 + rotor.trim / parameters.doubling_pitch), h = g * rotor.trim / parameters.doubling_pitch;
     Matrix A(4, 4);
@@ -211,7 +211,7 @@ TEST_CASE("variable-speed equivalent: below rated speed its integral is where th
     const double slow = 100;  // rad/s, held: a generator as strong as the wind
     const VariableSpeedEquivalent loop =
         variable_speed_equivalent(parameters, {signal::constant(slow), signal::constant(0)}, {slow, 0.05});
-    for (const ControlBlock* block : {&loop.filter, &loop.integral}) rotor.forces.add_states(block->element);
+    for (const ControlBlock* block : {&loop.filter, &loop.integral}) rotor.forces.add_element(block->element);
     const System system = rotor.system();
     solvers::Integrator run(system, {}, 0, Vector::Zero(1), Vector::Zero(1));
     REQUIRE(run.advance(60).reached());

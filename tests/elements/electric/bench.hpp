@@ -52,13 +52,13 @@ inline void check_derivatives(const Tree& tree, const ForceSet& forces, const Ve
                               const Vector& s, const Vector& u = {}, double time = 0) {
     ForceSet differenced;
     for (const InputInfo& input : forces.inputs()) differenced.add_input(input);
-    for (StateElement element : forces.state_elements()) {
+    for (ForceElement element : forces.elements()) {
         element.jacobian = {};
-        differenced.add_states(element);
+        differenced.add_element(element);
     }
     ForceSet own;
     for (const InputInfo& input : forces.inputs()) own.add_input(input);
-    for (const StateElement& element : forces.state_elements()) own.add_states(element);
+    for (const ForceElement& element : forces.elements()) own.add_element(element);
     const Evaluated exact = evaluated({tree, own}, {.time = time, .q = q, .qd = qd, .s = s, .u = u}),
                     other = evaluated({tree, differenced}, {.time = time, .q = q, .qd = qd, .s = s, .u = u});
     const auto check = [](const Matrix& a, const Matrix& b) {

@@ -152,7 +152,7 @@ TEST_CASE("circuit: a coil, a resistor and a capacitor on a battery swing as in 
     net.add_capacitor({.name = "C", .from = "3", .to = "0", .capacitance = C});
     CHECK(net.states() == std::vector<std::string>{"coil flux", "C voltage"});
     OneBody bench = locked();
-    bench.forces.add_states(net.element());
+    bench.forces.add_element(net.element());
     const System system = bench.system();
     Integrator run(system, {}, 0, Vector::Zero(1), Vector::Zero(1), accurate());
     for (const double t : {0.1, 0.35, 0.7}) {
@@ -177,7 +177,7 @@ TEST_CASE("circuit: roots and steady currents of random networks are those of mo
         const Network net = random_network(seed);
         OneBody bench = locked();
         const Circuit circuit = net.circuit();
-        bench.forces.add_states(circuit.element());
+        bench.forces.add_element(circuit.element());
         const System system = bench.system();
         const Eigen::Index m = system.forces.states().size();
         const Vector one = Vector::Zero(1);
@@ -211,7 +211,7 @@ TEST_CASE("circuit: currents of the branches, with resistors that close loops, m
     const Network net = random_network(7);
     OneBody bench = locked();
     const Circuit circuit = net.circuit();
-    bench.forces.add_states(circuit.element());
+    bench.forces.add_element(circuit.element());
     const System system = bench.system();
     Integrator run(system, {}, 0, Vector::Zero(1), Vector::Zero(1), accurate());
     REQUIRE(run.advance(0.5).reached());
@@ -259,7 +259,7 @@ TEST_CASE("circuit: what cannot be is refused with its place", "[property]") {
     moving.add_resistor({.name = "R", .from = "b", .to = "a", .resistance = 1});
     OneBody bench = locked();
     moving.vary("coil", "coil", BodyId{99}, cosine(1));
-    bench.forces.add_states(moving.element());
+    bench.forces.add_element(moving.element());
     check_refused([&] { static_cast<void>(bench.system()); }, {"net", "99"});
 }
 
@@ -275,7 +275,7 @@ TEST_CASE("circuit: nothing is allocated in an evaluation", "[property]") {
     net.add_capacitor({.name = "C", .from = "2", .to = "0", .capacitance = 2});
     net.vary("coil", "ring", bench.body, cosine(2));
     net.add_magnet("cage", bench.body, cosine(1));
-    bench.forces.add_states(net.element());
+    bench.forces.add_element(net.element());
     const System system = bench.system();
     const Eigen::Index m = system.forces.states().size();
     const Vector q = Vector::Constant(1, 0.3), qd = Vector::Constant(1, 2), s = Vector::Constant(m, 0.4), u;

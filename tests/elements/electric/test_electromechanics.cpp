@@ -57,7 +57,7 @@ TEST_CASE("electromechanics: a plunger in a coil without resistance swings as on
     coil.add_winding({.name = "coil", .from = "1", .to = "0"});
     coil.vary("coil", "coil", bench.body, plunger_inductance(L0, a));
     bench.forces.add_spring("spring", bench.body, k);
-    bench.forces.add_states(coil.element());
+    bench.forces.add_element(coil.element());
     const double stiffness = k + field / (a * a), w = std::sqrt(stiffness / m), rest = -field / (a * stiffness);
     IntegrationOptions options = accurate();
     options.states = Vector::Constant(1, flux);
@@ -82,7 +82,7 @@ TEST_CASE("electromechanics: a plunger on a battery settles where field and spri
     coil.add_winding({.name = "coil", .from = "1", .to = "0", .resistance = R});
     coil.vary("coil", "coil", bench.body, plunger_inductance(L0, a));
     bench.forces.add_spring("spring", bench.body, k, 3);
-    bench.forces.add_states(coil.element());
+    bench.forces.add_element(coil.element());
     const SteadyState steady = steady_state(bench.system(), -1);
     REQUIRE(steady.converged);
     const double x = steady.at.q(0), y = 1 + x / a;
@@ -104,10 +104,10 @@ TEST_CASE("electromechanics: a motor with a commutator on an arm", "[analytic]")
     motor.add_source({.name = "supply", .from = "0", .to = "1", .over_time = [](double) { return 1.2; }});
     motor.add_winding({.name = "armature", .from = "1", .to = "0", .inductance = L, .resistance = R});
     motor.add_magnet("armature", bench.body, [](double q) { return Curve{1.9 * q, 1.9, 0}; });
-    UserForce weight{.name = "weight"};
-    weight.force = [](const StateView& at, VectorOut Q) { Q(0) -= 3 * std::sin(at.q(0)); };
-    bench.forces.add_user(weight);
-    bench.forces.add_states(motor.element());
+    ForceElement weight{.name = "weight", .coordinates = {BodyId{0}}};
+    weight.evaluate = [](const ElementView& at, ElementForces& out) { out.Q(0) -= 3 * std::sin(at.q(0)); };
+    bench.forces.add_element(weight);
+    bench.forces.add_element(motor.element());
     const SteadyState steady = steady_state(bench.system(), -1);
     REQUIRE(steady.converged);
     CHECK(std::sin(steady.at.q(0)) == Approx(k * V / R / g).epsilon(1e-8));
@@ -153,7 +153,7 @@ TEST_CASE("electromechanics: a levitated ball with its controller", "[analytic]"
         return Curve{c / y, -c / (y * y), 2 * c / (y * y * y)};
     });
     bench.forces.set_gravity({0, 0, g});
-    bench.forces.add_states(shifted.element());
+    bench.forces.add_element(shifted.element());
     const System system = bench.system();
     SteadyOptions options;
     options.states = Vector::Constant(1, (L1 + c / gap) * i);
@@ -198,7 +198,7 @@ TEST_CASE("electromechanics: the circuit moves as the Christoffel symbols of blo
     });
     ForceSet forces;
     forces.add_spring("spring", slider, 20);
-    forces.add_states(circuit.element());
+    forces.add_element(circuit.element());
     const System system(tree, forces);
 
     // (x, theta, x', theta', i1, i2): G dv/dt = -Gamma v v + forces, with G = blockdiag(mass, J, L).

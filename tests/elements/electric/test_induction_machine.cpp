@@ -50,12 +50,12 @@ InductionGenerator generator(const Machine& machine, BodyId shaft) {
 
 // Braking torque of a load that is put on.
 void add_load(OneBody& bench, const Machine& machine, IntegrationOptions& options) {
-    UserForce load{.name = "load"};
-    load.force = [machine](const StateView& at, VectorOut Q) {
-        if (at.time >= machine.load_from) Q(0) -= machine.load;
+    ForceElement load{.name = "load", .coordinates = {BodyId{0}}};
+    load.evaluate = [machine](const ElementView& at, ElementForces& out) {
+        if (at.time >= machine.load_from) out.Q(0) -= machine.load;
     };
-    load.jacobian = [](const StateView&, const MatrixOut&, const MatrixOut&) {};
-    bench.forces.add_user(load);
+    load.jacobian = [](const ElementView&, ElementJacobian&) {};
+    bench.forces.add_element(load);
     options.breaks = {machine.load_from};
 }
 
@@ -66,7 +66,7 @@ struct Row {
 void check_free_acceleration(const Machine& machine, const std::vector<Row>& rows) {
     OneBody bench(JointKind::revolute, machine.inertia);
     const InductionGenerator own = generator(machine, bench.body);
-    bench.forces.add_states(induction_generator(own));
+    bench.forces.add_element(induction_generator(own));
     IntegrationOptions options = accurate(1e-11);
     add_load(bench, machine, options);
     const System system = bench.system();
@@ -88,7 +88,7 @@ Complex response(const InductionGenerator& machine, const Tree& tree, double spe
     InductionGenerator own = machine;
     own.running = speed;
     ForceSet forces;
-    forces.add_states(induction_generator(own));
+    forces.add_element(induction_generator(own));
     const System system(tree, forces);
     const Evaluated at = evaluated(system, {.q = Vector::Zero(1),
                                             .qd = Vector::Constant(1, speed / own.gear_ratio),
@@ -192,8 +192,8 @@ TEST_CASE("induction machine: derivatives are exact, also within a disturbance",
         own.grid = own.grid.with_sag(0.5, 1, 1).with_phase_jump(0.3, 1.5).with_frequency_change(1, 1.2, 9);
         own.grid = own.grid.with_interruption(3, 1);
         ForceSet forces;
-        const StateElement element = induction_generator(own);
-        forces.add_states(element);
+        const ForceElement element = induction_generator(own);
+        forces.add_element(element);
         Vector s(std::ssize(element.states));
         for (Eigen::Index k = 0; k < s.size(); ++k) s(k) = entry(element.states, k).initial * 1.1 + 0.01;
         CHECK(element.breaks == std::vector<double>{1, 1.2, 1.5, 2, 3, 4, 10.2});
@@ -209,10 +209,10 @@ TEST_CASE("induction machine: after a change of frequency all orders run with th
         own.order = order;
         own.running = 188;
         own.grid = own.grid.with_frequency_change(-2, 0.5, 100);
-        bench.forces.add_states(induction_generator(own));
-        UserForce drive{.name = "drive"};
-        drive.force = [](const StateView&, VectorOut Q) { Q(0) += 10; };
-        bench.forces.add_user(drive);
+        bench.forces.add_element(induction_generator(own));
+        ForceElement drive{.name = "drive", .coordinates = {BodyId{0}}};
+        drive.evaluate = [](const ElementView&, ElementForces& out) { out.Q(0) += 10; };
+        bench.forces.add_element(drive);
         const System system = bench.system();
         Integrator run(system, {}, 0, Vector::Zero(1), Vector::Constant(1, 188), accurate(1e-8));
         REQUIRE(run.advance(4).reached());
@@ -229,7 +229,7 @@ TEST_CASE("induction machine: cut off, it loses its current at once; back again,
     InductionGenerator own = generator(large, bench.body);
     own.running = 190;
     own.grid = own.grid.with_interruption(0.2, 0.15);
-    bench.forces.add_states(induction_generator(own));
+    bench.forces.add_element(induction_generator(own));
     const System system = bench.system();
     const ChannelGroup channels = induction_generator_channels(own);
     Integrator run(system, {}, 0, Vector::Zero(1), Vector::Constant(1, 190), accurate(1e-10));
@@ -246,9 +246,9 @@ TEST_CASE("induction machine: cut off, it loses its current at once; back again,
 TEST_CASE("induction machine: phase quantities and Park's axes are the same motion", "[crosscheck]") {
     OneBody park(JointKind::revolute, small.inertia), phases(JointKind::revolute, small.inertia);
     const InductionGenerator own = generator(small, park.body);
-    park.forces.add_states(induction_generator(own));
+    park.forces.add_element(induction_generator(own));
     const Circuit circuit = three_phase_machine({.shaft = phases.body, .circuit = small.circuit, .grid = own.grid});
-    phases.forces.add_states(circuit.element());
+    phases.forces.add_element(circuit.element());
     const System a = park.system(), b = phases.system();
     Integrator first(a, {}, 0, Vector::Zero(1), Vector::Zero(1), accurate(1e-11)),
         second(b, {}, 0, Vector::Zero(1), Vector::Zero(1), accurate(1e-11));
@@ -277,7 +277,7 @@ TEST_CASE("induction machine: with one phase open it does not start, and the tor
                                                      .circuit = small.circuit,
                                                      .grid = {.line_voltage = 220, .frequency = 60},
                                                      .open_phase = 2});
-        bench.forces.add_states(circuit.element());
+        bench.forces.add_element(circuit.element());
         CHECK(circuit.states().size() == 3);
         const System system = bench.system();
         Integrator run(system, {}, 0, Vector::Zero(1), Vector::Constant(1, speed), accurate(1e-8));
@@ -306,8 +306,8 @@ TEST_CASE("induction machine, doubly fed: torque and reactive power follow their
                            .running_torque = 5000};
     bench.forces.add_input({.name = "torque demand", .unit = "N m", .scale = 5000, .initial = 5000});
     bench.forces.add_input({.name = "reactive demand", .unit = "var", .scale = 1e6});
-    const StateElement element = doubly_fed_generator(own);
-    bench.forces.add_states(element);
+    const ForceElement element = doubly_fed_generator(own);
+    bench.forces.add_element(element);
     const System system = bench.system();
     const Vector start = system.forces.states().initial(), rate = Vector::Constant(1, 110);
     const Evaluated at =
@@ -341,9 +341,9 @@ TEST_CASE("induction machine, doubly fed: torque and reactive power follow their
 }
 
 TEST_CASE("induction machine: nothing is allocated in an evaluation, the doubly fed one included", "[property]") {
-    const auto check = [](const OneBody& bench, const StateElement& element) {
+    const auto check = [](const OneBody& bench, const ForceElement& element) {
         ForceSet forces;
-        forces.add_states(element);
+        forces.add_element(element);
         const System system(bench.tree, forces);
         const Vector q = Vector::Zero(1), qd = Vector::Constant(1, 180), s = system.forces.states().initial(), u;
         CHECK(allocations_of_evaluation(system, {.q = q, .qd = qd, .s = s, .u = u}) == 0);

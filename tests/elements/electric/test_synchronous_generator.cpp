@@ -35,11 +35,11 @@ struct Bench : OneBody {
     explicit Bench(const Grid& grid = {}) : OneBody(JointKind::revolute, 4e6), own(generator(body)) {
         if (grid.line_voltage > 0) own.grid = grid;
         forces.add_input({.name = "torque demand", .unit = "N m", .scale = 1e6, .initial = 8e5});
-        forces.add_states(synchronous_generator(own));
-        UserForce rotor{.name = "rotor"};
-        rotor.force = [](const StateView&, VectorOut Q) { Q(0) += 8e5; };
-        rotor.jacobian = [](const StateView&, const MatrixOut&, const MatrixOut&) {};
-        forces.add_user(rotor);
+        forces.add_element(synchronous_generator(own));
+        ForceElement rotor{.name = "rotor", .coordinates = {BodyId{0}}};
+        rotor.evaluate = [](const ElementView&, ElementForces& out) { out.Q(0) += 8e5; };
+        rotor.jacobian = [](const ElementView&, ElementJacobian&) {};
+        forces.add_element(rotor);
     }
 };
 

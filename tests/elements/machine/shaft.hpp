@@ -10,15 +10,15 @@
 
 namespace cardan::testing {
 
-/// A flywheel of inertia J under a constant moment and some user forces.
+/// A flywheel of inertia J under a constant moment and some force elements.
 struct Shaft {
     double J = 2, moment = 0;
 
-    System system(const std::function<std::vector<UserForce>(BodyId)>& users) const {
+    System system(const std::function<std::vector<ForceElement>(BodyId)>& users) const {
         Tree tree;
         ForceSet forces;
         const Link wheel = add_joint(tree, {.name = "wheel", .inertia = {1, Vec3::Zero(), Vec3(J, J, J).asDiagonal()}});
-        for (UserForce& user : users(wheel.body)) forces.add_user(std::move(user));
+        for (ForceElement& user : users(wheel.body)) forces.add_element(std::move(user));
         if (moment != 0)
             forces.add_wrench({"moment", wheel.axes, {Vec3::Zero(), moment * Vec3::UnitZ()}, WrenchAxes::base});
         return {tree, forces};

@@ -112,7 +112,7 @@ TEST_CASE("brake: in any motion it only dissipates", "[property]") {
     Brake light = disc(wheel.body);
     light.maximum_torque = 0.2;
     forces.add_spring("spring", wheel.body, 40);
-    forces.add_user(brake_force(light));
+    forces.add_element(brake_force(light));
     const System system(tree, forces);
     solvers::Integrator integrator(system, {}, 0, one(0), one(3), accurate());
     double loads = 0, time = 0;

@@ -102,5 +102,5 @@ TEST_CASE("bearing: a mass on eight coefficients, and coefficients over speed", 
     Mat6 skewed = Mat6::Identity();
     skewed(0, 1) = 1;
     check_refused([&] { add_bushing(forces, {"b", FrameId{0}, FrameId{1}, skewed, Mat6::Zero()}); }, {"symmetric"});
-    check_refused([&] { add_pair_law(forces, {"p", FrameId{0}, FrameId{1}, {}, {}}); }, {"'p'", "measure"});
+    check_refused([&] { (void)pair_force({"p", FrameId{0}, FrameId{1}, {}, {}}); }, {"'p'", "measure"});
 }

@@ -25,7 +25,7 @@ Bounce bounce(double mass, const HuntCrossley& law, double v0, bool plane) {
     if (plane)
         add_plane_contact(forces, {"plane", Tree::base(), z.axes, law});
     else
-        forces.add_user(contact_stop("stop", z.body, 0, false, law));
+        forces.add_element(contact_stop("stop", z.body, 0, false, law));
     const System system(tree, forces);
     IntegrationOptions options;
     options.tolerances = {1e-11, 1e-14, 1e-14, 1e-12, 1e-12};
@@ -57,7 +57,7 @@ Cycle creeping_cycle(double d, const StribeckFriction& law) {
         add_joint(tree, {.name = "x", .kind = JointKind::prismatic, .inertia = {1, Vec3::Zero(), Mat3::Zero()}});
     ForceSet forces;
     forces.add_spring("spring", x.body, k, d);
-    forces.add_user(friction_force("belt", x.body, law, V));
+    forces.add_element(friction_force("belt", x.body, law, V));
     const System system(tree, forces);
     IntegrationOptions options;
     options.tolerances = {1e-9, 1e-11, 1e-11, 1e-10, 1e-10};
@@ -252,12 +252,14 @@ TEST_CASE("friction: three blocks in a row break loose one after another", "[ana
                              .body);
         frictions.push_back(add_dry_friction(forces, loops, text("floor ", i + 1), blocks.back(), {1, 1, 0.1}));
     }
-    forces.add_user({.name = "springs and pull", .force = [](const StateView& at, VectorOut Q) {
-                         const double a = 100 * (at.q(0) - at.q(1)), b = 100 * (at.q(1) - at.q(2));
-                         Q(0) += at.time / 10 - a;
-                         Q(1) += a - b;
-                         Q(2) += b;
-                     }});
+    forces.add_element({.name = "springs and pull",
+                        .points = {{Tree::base()}},
+                        .evaluate = [](const ElementView& at, ElementForces& out) {
+                            const double a = 100 * (at.q(0) - at.q(1)), b = 100 * (at.q(1) - at.q(2));
+                            out.Q(0) += at.time / 10 - a;
+                            out.Q(1) += a - b;
+                            out.Q(2) += b;
+                        }});
     const System system(tree, forces, loops);
     const Vector rest = Vector::Zero(3);
     IntegrationOptions options;

@@ -172,7 +172,7 @@ TEST_CASE("generator: a table acts as a force with its exact slope, without allo
 }
 
 TEST_CASE("generator: its channels are torque on its own shaft and power", "[property]") {
-    const System system = Shaft{}.system([](BodyId) { return std::vector<UserForce>{}; });
+    const System system = Shaft{}.system([](BodyId) { return std::vector<ForceElement>{}; });
     const ChannelGroup group = generator_channels(on_shaft(BodyId{0}));
     REQUIRE(group.channels.size() == 2);
     CHECK(group.channels[0].alias == "GenTq");

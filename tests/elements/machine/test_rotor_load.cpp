@@ -104,9 +104,9 @@ TEST_CASE("rotor load: the force is the wrench on the hub, its Jacobian the diff
         const auto with = [&](bool jacobian) {
             return ForcedTree(seed, [&](ForcedTree& at, ForceSet& set) {
                 load = load_on(at.add_tip());
-                UserForce force = rotor_load_force(load);
+                ForceElement force = rotor_load_force(load);
                 if (!jacobian) force.jacobian = {};
-                set.add_user(force);
+                set.add_element(force);
             });
         };
         ForcedTree own = with(true), differenced = with(false);
@@ -138,7 +138,7 @@ TEST_CASE("rotor load: a law takes the place of curve and wind", "[property]") {
     RotorLoad load;
     ForcedTree with_curve(3, [&](ForcedTree& at, ForceSet& set) {
         load = load_on(at.add_tip());
-        set.add_user(rotor_load_force(load));
+        set.add_element(rotor_load_force(load));
     });
     ForcedTree with_law(3, [&](ForcedTree& at, ForceSet& set) {
         RotorLoad own = load_on(at.add_tip());
@@ -147,7 +147,7 @@ TEST_CASE("rotor load: a law takes the place of curve and wind", "[property]") {
         own.law = [same = load](double time, double azimuth, double speed, double pitch) {
             return same.curve.at(same.wind(time), azimuth, speed, pitch);
         };
-        set.add_user(rotor_load_force(own));
+        set.add_element(rotor_load_force(own));
         CHECK(rotor_load_channels(own).channels.size() == 3);  // no wind
     });
     CHECK(with_curve.Q().norm() > 1e-2);
@@ -182,7 +182,7 @@ TEST_CASE("rotor load: bad numbers are refused", "[property]") {
     ForcedTree calm(1, [](ForcedTree& at, ForceSet& set) {
         RotorLoad blown = load_on(at.add_tip());
         blown.wind = [](double) { return -1.0; };
-        set.add_user(rotor_load_force(blown));
+        set.add_element(rotor_load_force(blown));
     });
     check_refused([&] { (void)calm.Q(); }, {"rotor load at 0.7 s: wind speed [m/s] = -1; allowed: finite and >= 0"});
 }

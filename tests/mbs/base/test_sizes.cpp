@@ -80,8 +80,8 @@ std::vector<Door> doors_of_vectors(Fixture& f, Vector& bad) {
          [&] {
              forces.generalised_forces({{.q = x, .qd = x}, kin}, bad);
          }},
-        {"elements q", [&] { forces.generalised_forces_of_elements<double>(kin, bad, x, y); }},
-        {"elements Q", [&] { forces.generalised_forces_of_elements<double>(kin, x, x, bad); }},
+        {"elements q", [&] { forces.generalised_forces_of_laws<double>(kin, bad, x, y); }},
+        {"elements Q", [&] { forces.generalised_forces_of_laws<double>(kin, x, x, bad); }},
         {"force derivatives q",
          [&] {
              forces.derivatives({{.q = bad, .qd = x}, kin}, f.of_forces);

@@ -179,14 +179,16 @@ TEST_CASE("allocation: around user forces with Jacobians nothing is allocated, u
         Random random(3);
         const Tree tree = random_tree(random, {.bodies = 7});
         ForceSet set = random_forces(random, tree);
-        set.add_user({.name = "drag",
-                      .force = [](const StateView& in, VectorOut Q) { Q -= 0.3 * in.qd - 0.1 * in.q; },
-                      .jacobian =
-                          [](const StateView&, MatrixOut by_q, MatrixOut by_qd) {
-                              by_q.diagonal().array() += 0.1;
-                              by_qd.diagonal().array() -= 0.3;
-                          },
-                      .elastic = elastic});
+        set.add_element(
+            {.name = "drag",
+             .points = {{Tree::base()}},
+             .evaluate = [](const ElementView& in, ElementForces& out) { out.Q -= 0.3 * in.qd - 0.1 * in.q; },
+             .jacobian =
+                 [](const ElementView&, ElementJacobian& d) {
+                     d.Q_q.diagonal().array() += 0.1;
+                     d.Q_qd.diagonal().array() -= 0.3;
+                 },
+             .elastic = elastic});
         System system(tree, set);
         const std::vector<bool> driven(7, false);
         require_no_allocation(system, driven, 3);

@@ -183,13 +183,13 @@ TEST_CASE("forces: stiffness and damping equal the complex step, springs and gra
         for (int j = 0; j < n; ++j) {
             ComplexVector z = q.cast<Complex>(), zd = qd.cast<Complex>();
             z(j) += Complex(0, complex_step);
-            system.forces.generalised_forces_of_elements<Complex>(
-                kinematics<Complex>(system.model, z, complex_workspace), z, zd, Q);
+            system.forces.generalised_forces_of_laws<Complex>(kinematics<Complex>(system.model, z, complex_workspace),
+                                                              z, zd, Q);
             K.col(j) = -Q.imag() / complex_step;
             z(j) = q(j);
             zd(j) += Complex(0, complex_step);
-            system.forces.generalised_forces_of_elements<Complex>(
-                kinematics<Complex>(system.model, z, complex_workspace), z, zd, Q);
+            system.forces.generalised_forces_of_laws<Complex>(kinematics<Complex>(system.model, z, complex_workspace),
+                                                              z, zd, Q);
             D.col(j) = -Q.imag() / complex_step;
         }
         REQUIRE(scaled(d.elastic + d.gravity + d.loads - K, K) < 1e-12);

@@ -11,7 +11,7 @@ namespace cardan::testing::field_tests {
 namespace {
 
 struct DeadLoads {
-    std::vector<FieldPoint> points;
+    std::vector<FramePoint> points;
     std::vector<Wrench> wrenches;
 };
 
@@ -27,20 +27,18 @@ DeadLoads random_loads(ForcedTree& at) {
     return out;
 }
 
-WrenchField field_of(const DeadLoads& loads) {
-    return {
-        .name = "field",
-        .points = loads.points,
-        .wrenches = [own = loads.wrenches](const StateView&,
-                                           std::span<Wrench> out) { std::copy(own.begin(), own.end(), out.begin()); },
-        .jacobian = {},
-        .breaks = {}};
+ForceElement field_of(const DeadLoads& loads) {
+    return {.name = "field",
+            .points = loads.points,
+            .evaluate = [own = loads.wrenches](const ElementView&, ElementForces& out) {
+                std::copy(own.begin(), own.end(), out.wrenches.begin());
+            }};
 }
 
 // Two systems on one tree: the loads as a field, and one by one.
 struct Twins {
     explicit Twins(unsigned seed)
-        : as_field(seed, [](ForcedTree& at, ForceSet& set) { set.add_field(field_of(random_loads(at))); }),
+        : as_field(seed, [](ForcedTree& at, ForceSet& set) { set.add_element(field_of(random_loads(at))); }),
           one_by_one(seed, [](ForcedTree& at, ForceSet& set) {
               const DeadLoads loads = random_loads(at);
               for (std::size_t i = 0; i < loads.points.size(); ++i)
@@ -91,16 +89,16 @@ TEST_CASE("fields: joints carry them", "[crosscheck]") {
         CHECK((own.joint[k].force - expected.joint[k].force).norm() < 1e-12);
         CHECK((own.joint[k].moment - expected.joint[k].moment).norm() < 1e-11);
     }
-    REQUIRE(own.fields.size() == 1);
-    CHECK(own.fields[0].size() == twins.as_field.forces().field(0).points.size());
+    REQUIRE(own.elements.size() == 1);
+    CHECK(own.elements[0].size() == twins.as_field.forces().elements()[0].points.size());
 }
 
 namespace {
 
 // A Maxwell element between the ground and the origin of a body: the spring's force s along x, ds/dt = k v - k/c s.
-WrenchField maxwell_field(const ForcedTree& at, int body, bool exact) {
+ForceElement maxwell_field(const ForcedTree& at, int body, bool exact) {
     constexpr double k = 30, c = 7;
-    WrenchField field{.name = "bushing", .points = {{at.frame(body), Vec3::Zero()}}};
+    ForceElement field{.name = "bushing", .points = {{at.frame(body), Vec3::Zero()}}};
     field.states = {{.name = "bushing force", .unit = "N", .scale = 2}};
     // Of the origin, along x.
     const auto twist = [body](const StateView& in, int a) {
@@ -109,18 +107,18 @@ WrenchField maxwell_field(const ForcedTree& at, int body, bool exact) {
                    ? own_twist_at(in.kinematics, a, in.kinematics.origin(model.index(BodyId{body}))).v.x()
                    : 0.0;
     };
-    field.evaluate = [twist](const FieldInput& in, std::span<Wrench> out, VectorOut rates) {
+    field.evaluate = [twist](const ElementView& in, ElementForces& out) {
         double v = 0;
-        for (int a = 0; a < in.kinematics.model().size(); ++a) v += twist(in, a) * in.qd(a);
-        out[0] = {Vec3(-in.own(0), 0, 0), Vec3::Zero()};
-        rates(0) = k * v - k / c * in.own(0);
+        for (int a = 0; a < in.q.size(); ++a) v += twist(in.system, a) * in.qd(a);
+        out.wrenches[0] = {Vec3(-in.s(0), 0, 0), Vec3::Zero()};
+        out.f(0) = k * v - k / c * in.s(0);
     };
     if (exact)
-        field.state_jacobian = [twist](const FieldInput& in, FieldJacobian& J) {
+        field.jacobian = [twist](const ElementView& in, ElementJacobian& J) {
             // By the states and the rates; what turns with q is left to the differences of the other one.
-            for (int a = 0; a < in.kinematics.model().size(); ++a) {
-                J.Q_s(a, 0) += -twist(in, a);
-                J.f_qd(0, a) += k * twist(in, a);
+            for (int a = 0; a < in.q.size(); ++a) {
+                J.Q_s(a, 0) += -twist(in.system, a);
+                J.f_qd(0, a) += k * twist(in.system, a);
             }
             J.f_s(0, 0) += -k / c;
         };
@@ -133,7 +131,7 @@ TEST_CASE("fields: with a state, by differences and exactly", "[crosscheck]") {
     for (unsigned seed = 1; seed < 6; ++seed) {
         const auto make = [&](bool exact) {
             return ForcedTree(seed,
-                              [exact](ForcedTree& at, ForceSet& set) { set.add_field(maxwell_field(at, 5, exact)); });
+                              [exact](ForcedTree& at, ForceSet& set) { set.add_element(maxwell_field(at, 5, exact)); });
         };
         ForcedTree tree = make(false), exact = make(true);
         const Vector s = tree.s = exact.s = Vector::Constant(1, 1.7);
@@ -166,27 +164,20 @@ TEST_CASE("fields: with a state, by differences and exactly", "[crosscheck]") {
 
 TEST_CASE("fields: what is refused", "[validation]") {
     ForceSet set;
-    check_refused([&] { set.add_field({.name = "air"}); }, {"air", "wrenches"});
+    check_refused([&] { set.add_element({.name = "air"}); }, {"air", "evaluate"});
     check_refused(
         [&] {
-            set.add_field({.name = "air",
-                           .wrenches = [](const StateView&, std::span<Wrench>) {},
-                           .states = {{.name = "lag", .unit = "1", .scale = 1}}});
-        },
-        {"air", "evaluate"});
-    check_refused(
-        [&] {
-            set.add_field({.name = "air",
-                           .points = {{Tree::base(), Vec3(0, std::nan(""), 0)}},
-                           .wrenches = [](const StateView&, std::span<Wrench>) {}});
+            set.add_element({.name = "air",
+                             .points = {{Tree::base(), Vec3(0, std::nan(""), 0)}},
+                             .evaluate = [](const ElementView&, ElementForces&) {}});
         },
         {"air", "place [m]", "finite"});
     check_refused(
         [&] {
             ForcedTree(1, [](ForcedTree&, ForceSet& forces) {
-                forces.add_field({.name = "air",
-                                  .points = {{FrameId{999}, Vec3::Zero()}},
-                                  .wrenches = [](const StateView&, std::span<Wrench>) {}});
+                forces.add_element({.name = "air",
+                                    .points = {{FrameId{999}, Vec3::Zero()}},
+                                    .evaluate = [](const ElementView&, ElementForces&) {}});
             });
         },
         {"air", "frame", "999"});

@@ -101,7 +101,9 @@ TEST_CASE("forces: the powers reported add up to Q . qd, one by one and together
     for (unsigned seed = 0; seed < 30; ++seed) {
         ForcedTree s(seed, [](ForcedTree& at, ForceSet& set) {
             set = random_forces(at.random, at.tree);
-            set.add_user({.name = "drag", .force = [](const StateView& in, VectorOut Q) { Q -= 0.3 * in.qd; }});
+            set.add_element({.name = "drag",
+                             .points = {{Tree::base()}},
+                             .evaluate = [](const ElementView& in, ElementForces& out) { out.Q -= 0.3 * in.qd; }});
         });
         double power = 0;
         for (const ForceReport& element : s.report()) power += element.power;

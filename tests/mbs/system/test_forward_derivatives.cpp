@@ -34,7 +34,7 @@ public:
         const KinematicsT<Complex> kin = kinematics<Complex>(model_, q, workspace);
         ComplexVector Q = Q_given, of_elements(n), tau(n), qdd = ComplexVector::Zero(n);
         if (forces_ != nullptr) {
-            forces_->generalised_forces_of_elements<Complex>(kin, q, qd, of_elements);
+            forces_->generalised_forces_of_laws<Complex>(kin, q, qd, of_elements);
             Q += of_elements;
         }
         for (const int d : driven_) qdd(d) = prescribed(d);

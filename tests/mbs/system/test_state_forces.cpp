@@ -11,21 +11,21 @@ namespace cardan::testing::state_forces {
 namespace {
 
 // Two states of which one drives the other, forces on two coordinates, a state of another element and an input.
-StateElement drive(bool with_jacobian) {
-    StateElement element{.name = "drive",
+ForceElement drive(bool with_jacobian) {
+    ForceElement element{.name = "drive",
                          .states = {{.name = "flux", .unit = "V s", .scale = 0.5, .initial = 0.2},
                                     {.name = "current", .unit = "A", .scale = 40}},
                          .coordinates = {BodyId{2}, BodyId{5}},
                          .reads = {"filter"},
                          .inputs = {"demand"}};
-    element.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q(0) += in.s(0) * in.s(1) - 0.3 * in.qd(0) * in.qd(1);
-        Q(1) += std::sin(in.q(0)) * in.u(0) + in.others(0) * in.q(1);
-        f(0) += -2 * in.s(0) + std::cos(in.q(1)) + 0.1 * in.time;
-        f(1) += in.qd(0) * in.s(0) - in.s(1) * in.s(1) / 40 + in.u(0) * in.others(0);
+    element.evaluate = [](const ElementView& in, ElementForces& out) {
+        out.Q(0) += in.s(0) * in.s(1) - 0.3 * in.qd(0) * in.qd(1);
+        out.Q(1) += std::sin(in.q(0)) * in.u(0) + in.others(0) * in.q(1);
+        out.f(0) += -2 * in.s(0) + std::cos(in.q(1)) + 0.1 * in.time;
+        out.f(1) += in.qd(0) * in.s(0) - in.s(1) * in.s(1) / 40 + in.u(0) * in.others(0);
     };
     if (with_jacobian)
-        element.jacobian = [](const StateInput& in, StateJacobian& d) {
+        element.jacobian = [](const ElementView& in, ElementJacobian& d) {
             d.Q_s(0, 0) += in.s(1);
             d.Q_s(0, 1) += in.s(0);
             d.Q_qd(0, 0) -= 0.3 * in.qd(1);
@@ -45,11 +45,11 @@ StateElement drive(bool with_jacobian) {
     return element;
 }
 
-StateElement filter() {
-    StateElement element{
+ForceElement filter() {
+    ForceElement element{
         .name = "filter", .states = {{.name = "filter", .unit = "rad/s", .scale = 2}}, .coordinates = {BodyId{7}}};
-    element.rates = [](const StateInput& in, VectorOut, VectorOut f) { f(0) += (in.qd(0) - in.s(0)) / 0.4; };
-    element.jacobian = [](const StateInput&, StateJacobian& d) {
+    element.evaluate = [](const ElementView& in, ElementForces& out) { out.f(0) += (in.qd(0) - in.s(0)) / 0.4; };
+    element.jacobian = [](const ElementView&, ElementJacobian& d) {
         d.f_qd(0, 0) += 1 / 0.4;
         d.f_s(0, 0) -= 1 / 0.4;
     };
@@ -60,9 +60,9 @@ StateElement filter() {
 ForcedTree machine(unsigned seed, bool with_jacobian) {
     return ForcedTree(seed, [&](ForcedTree&, ForceSet& set) {
         set.add_input({.name = "demand", .unit = "N m", .scale = 100, .initial = 7});
-        set.add_states(drive(with_jacobian));
+        set.add_element(drive(with_jacobian));
         set.add_spring("spring", BodyId{3}, 30, 0.2);
-        set.add_states(filter());
+        set.add_element(filter());
     });
 }
 
@@ -202,31 +202,31 @@ TEST_CASE("elements with states: what does not take them into account refuses th
     ForcedTree tree = machine(6, true);
     check_refused([&] { (void)tree.Q(); }, {"number of states = 3"});
     ForceDerivatives d;
-    check_refused([&] { tree.forces().derivatives({tree, tree.kin()}, d); }, {"elements with states", "s", "3"});
+    check_refused([&] { tree.forces().derivatives({tree, tree.kin()}, d); }, {"force elements", "states", "3"});
     Values out{Vector(ForcedTree::n), Vector(3)};
     check_refused(
         [&] {
             tree.forces().generalised_forces({tree, tree.kin()}, out.Q, out.f);
         },
-        {"elements with states", "s", "3"});
+        {"force elements", "states", "3"});
 }
 
 TEST_CASE("elements with states: names, scales and coordinates that cannot be are refused", "[property]") {
     const auto with = [](auto change, std::initializer_list<std::string> parts) {
-        StateElement element = drive(true);
+        ForceElement element = drive(true);
         InputInfo input{.name = "demand", .unit = "N m", .scale = 100};
         change(element, input);
         check_refused(
             [&] {
                 ForcedTree(1, [&](ForcedTree&, ForceSet& set) {
                     set.add_input(input);
-                    set.add_states(element);
-                    set.add_states(filter());
+                    set.add_element(element);
+                    set.add_element(filter());
                 });
             },
             parts);
     };
-    using E = StateElement;
+    using E = ForceElement;
     with([](E& e, InputInfo&) { e.states[1].scale = 0; }, {"'drive'", "state 'current'", "scale [A] = 0", "> 0"});
     with([](E& e, InputInfo&) { e.states[1].unit = ""; }, {"'drive'", "state 'current'", "unit is missing"});
     with([](E& e, InputInfo&) { e.states[1].name = "flux"; }, {"'drive'", "state 'flux'", "there already"});
@@ -235,7 +235,7 @@ TEST_CASE("elements with states: names, scales and coordinates that cannot be ar
     with([](E& e, InputInfo&) { e.coordinates[1] = BodyId{99}; }, {"'drive'", "body = 99"});
     with([](E& e, InputInfo&) { e.reads[0] = "filtre"; }, {"'drive'", "unknown state 'filtre'", "'filter'"});
     with([](E& e, InputInfo&) { e.inputs[0] = "demnd"; }, {"'drive'", "unknown input 'demnd'", "'demand'"});
-    with([](E& e, InputInfo&) { e.rates = {}; }, {"'drive'", "`rates` is missing"});
+    with([](E& e, InputInfo&) { e.evaluate = {}; }, {"'drive'", "`evaluate` is missing"});
     with([](E&, InputInfo& i) { i.scale = -1; }, {"input 'demand'", "scale [N m] = -1"});
     const std::string coordinate = ForcedTree(1, [](ForcedTree&, ForceSet&) {}).model().coordinates()[0].name;
     with([&](E& e, InputInfo&) { e.states[0].name = coordinate; }, {text("state '", coordinate, "'"), "coordinate"});

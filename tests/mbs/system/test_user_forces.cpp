@@ -12,33 +12,35 @@ namespace {
 
 // Nonlinear in q and qd, dependent on time and on the pose of a frame: a spring from the tip to the origin that hardens
 // with time, and quadratic damping.
-UserForce hardening_spring(FrameId tip, bool with_jacobian) {
-    UserForce user{.name = "hardening spring"};
-    user.force = [tip](const StateView& in, VectorOut Q) {
+ForceElement hardening_spring(FrameId tip, bool with_jacobian) {
+    ForceElement user{.name = "hardening spring", .points = {{Tree::base()}}};
+    user.evaluate = [tip](const ElementView& in, ElementForces& out) {
         const Eigen::Index n = in.q.size();
         Matrix J(6, n);
-        frame_jacobian<double>(in.kinematics, tip, J);
-        const Vec3 p = pose(in.kinematics, tip).p;
-        Q -= (1 + in.time) * J.bottomRows<3>().transpose() * p;
-        Q.array() -= 0.2 * in.qd.array() * in.qd.array().abs();
+        frame_jacobian<double>(in.system.kinematics, tip, J);
+        const Vec3 p = pose(in.system.kinematics, tip).p;
+        out.Q -= (1 + in.time) * J.bottomRows<3>().transpose() * p;
+        out.Q.array() -= 0.2 * in.qd.array() * in.qd.array().abs();
     };
-    user.energy = [tip](const StateView& in) { return (1 + in.time) * pose(in.kinematics, tip).p.squaredNorm() / 2; };
+    user.potential = [tip](const ElementView& in) {
+        return (1 + in.time) * pose(in.system.kinematics, tip).p.squaredNorm() / 2;
+    };
     if (with_jacobian)
-        user.jacobian = [tip](const StateView& in, MatrixOut by_q, MatrixOut by_qd) {
-            const Model& model = in.kinematics.model();
+        user.jacobian = [tip](const ElementView& in, ElementJacobian& d) {
+            const Model& model = in.system.kinematics.model();
             const Eigen::Index n = in.q.size();
             Matrix J(6, n);
-            frame_jacobian<double>(in.kinematics, tip, J);
-            const Vec3 p = pose(in.kinematics, tip).p;
+            frame_jacobian<double>(in.system.kinematics, tip, J);
+            const Vec3 p = pose(in.system.kinematics, tip).p;
             // d_b J_a = w_b x J_a for b proximal of a, J the velocity of the tip.
             for (int a = 0; a < n; ++a)
                 for (int b = 0; b < n; ++b) {
                     const int proximal = std::min(a, b), distal = std::max(a, b);
                     const Vec3 w = J.col(proximal).head<3>(), v = J.col(distal).tail<3>();
                     const double turn = model.precedes(distal, model.frame(tip).body) ? p.dot(w.cross(v)) : 0.0;
-                    by_q(a, b) -= (1 + in.time) * (J.col(a).tail<3>().dot(J.col(b).tail<3>()) + turn);
+                    d.Q_q(a, b) -= (1 + in.time) * (J.col(a).tail<3>().dot(J.col(b).tail<3>()) + turn);
                 }
-            by_qd.diagonal().array() -= 0.4 * in.qd.array().abs();
+            d.Q_qd.diagonal().array() -= 0.4 * in.qd.array().abs();
         };
     return user;
 }
@@ -49,7 +51,7 @@ TEST_CASE("user forces: with and without their Jacobian the derivatives agree", 
     for (unsigned seed = 0; seed < 20; ++seed) {
         const auto make = [&](bool with_jacobian) {
             return ForcedTree(seed, [&](ForcedTree& at, ForceSet& set) {
-                set.add_user(hardening_spring(at.add_tip(), with_jacobian));
+                set.add_element(hardening_spring(at.add_tip(), with_jacobian));
             });
         };
         ForcedTree given = make(true), differenced = make(false);
@@ -70,7 +72,7 @@ TEST_CASE("user forces: with and without their Jacobian the derivatives agree", 
 }
 
 TEST_CASE("user forces: a force with an energy is its gradient, and both see the time", "[property]") {
-    ForcedTree s(11, [](ForcedTree& at, ForceSet& set) { set.add_user(hardening_spring(at.add_tip(), false)); });
+    ForcedTree s(11, [](ForcedTree& at, ForceSet& set) { set.add_element(hardening_spring(at.add_tip(), false)); });
     s.qd.setZero();
     const Vector Q = s.Q();
     CHECK(scaled(Q - minus_energy_gradient(s), Q) < 1e-10);
@@ -82,11 +84,11 @@ TEST_CASE("user forces: a force with an energy is its gradient, and both see the
 
 TEST_CASE("user forces: a linear law written as a user force is the law, forces add up", "[property]") {
     for (unsigned seed = 0; seed < 10; ++seed) {
-        const auto law = [](const StateView& in, VectorOut Q) { Q -= 3 * in.q + 0.5 * in.qd; };
+        const auto law = [](const ElementView& in, ElementForces& out) { out.Q -= 3 * in.q + 0.5 * in.qd; };
         ForcedTree user(seed, [&](ForcedTree& at, ForceSet& set) {
             set.set_gravity(random_vector(at.random));
-            set.add_user({.name = "law", .force = law});
-            set.add_user({.name = "law again", .force = law});
+            set.add_element({.name = "law", .points = {{Tree::base()}}, .evaluate = law});
+            set.add_element({.name = "law again", .points = {{Tree::base()}}, .evaluate = law});
         });
         ForcedTree linear(seed, [&](ForcedTree& at, ForceSet& set) {
             set.set_gravity(random_vector(at.random));

@@ -23,7 +23,7 @@ void name_all() {
     name(&christoffel_along<S>, &inverse_dynamics<S>, &inertial_forces<S>);
     name(&lagrange::metric<S>, &lagrange::christoffel_first_kind<S>);
     name(&Loops::residual<S>, &Loops::gradient<S>, &Loops::bias<S>);
-    name(&Forces::generalised_forces_of_elements<S>);
+    name(&Forces::generalised_forces_of_laws<S>);
     name(&RotorCurve::torque<S>, &RotorCurve::thrust_force<S>);
 }
 

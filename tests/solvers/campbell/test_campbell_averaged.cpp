@@ -56,13 +56,13 @@ TEST_CASE("campbell averaged: equal blades on which something different acts are
           "[property]") {
     SmallRotorSpec spec{.damping = 2, .elastic_support = true};
     spec.more = [](ForceSet& forces, const std::vector<std::vector<BodyId>>& blades) {
-        StateElement on_one{
+        ForceElement on_one{
             .name = "on one", .states = {{.name = "unused", .unit = "1", .scale = 1}}, .coordinates = {blades[2][0]}};
-        on_one.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
-            Q(0) = -1500 * in.q(0);
-            f(0) = -in.s(0);
+        on_one.evaluate = [](const ElementView& in, ElementForces& out) {
+            out.Q(0) = -1500 * in.q(0);
+            out.f(0) = -in.s(0);
         };
-        forces.add_states(on_one);
+        forces.add_element(on_one);
     };
     const Campbell mean = diagram_by(small_rotor(spec), {3.0}, CampbellMethod::averaged, RotorSpin::prescribed);
     CAPTURE(mean.warning);

@@ -256,19 +256,20 @@ TEST_CASE("campbell by Floquet: a steady state that is missing at the last speed
     SmallRotorSpec spec{.stiffness = {2000, 2000}};
     spec.more = [](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
         // Coordinates: spin, flaps. T (1 + q^2) = K q has no solution for a large T.
-        const auto torque = [](const StateView& at) { return 10 * std::pow(at.qd(0), 5); };
-        forces.add_user({.name = "lift",
-                         .force =
-                             [torque](const StateView& at, VectorOut Q) {
-                                 for (const int i : {1, 2}) Q(i) += torque(at) * (1 + at.q(i) * at.q(i));
-                             },
-                         .jacobian =
-                             [torque](const StateView& at, MatrixOut dQ_dq, MatrixOut dQ_dqd) {
-                                 for (const int i : {1, 2}) {
-                                     dQ_dq(i, i) += 2 * torque(at) * at.q(i);
-                                     dQ_dqd(i, 0) += 5 * torque(at) / at.qd(0) * (1 + at.q(i) * at.q(i));
-                                 }
-                             }});
+        const auto torque = [](const ElementView& at) { return 10 * std::pow(at.qd(0), 5); };
+        forces.add_element({.name = "lift",
+                            .points = {{Tree::base()}},
+                            .evaluate =
+                                [torque](const ElementView& at, ElementForces& out) {
+                                    for (const int i : {1, 2}) out.Q(i) += torque(at) * (1 + at.q(i) * at.q(i));
+                                },
+                            .jacobian =
+                                [torque](const ElementView& at, ElementJacobian& d) {
+                                    for (const int i : {1, 2}) {
+                                        d.Q_q(i, i) += 2 * torque(at) * at.q(i);
+                                        d.Q_qd(i, 0) += 5 * torque(at) / at.qd(0) * (1 + at.q(i) * at.q(i));
+                                    }
+                                }});
     };
     const SmallRotor rotor = small_rotor(spec);
     CampbellOptions options = by(CampbellMethod::floquet);

@@ -221,15 +221,16 @@ TEST_CASE("campbell over a parameter: an instability is told with its place on t
     // Flaps that are driven by their own rates; coordinates: spin, flaps.
     SmallRotorSpec spec{.stiffness = {2000, 2000}};
     spec.more = [](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
-        forces.add_user({.name = "push",
-                         .force =
-                             [](const StateView& at, VectorOut Q) {
-                                 for (const int i : {1, 2}) Q(i) += 20 * at.qd(i);
-                             },
-                         .jacobian =
-                             [](const StateView&, MatrixOut, MatrixOut dQ_dqd) {
-                                 for (const int i : {1, 2}) dQ_dqd(i, i) += 20;
-                             }});
+        forces.add_element({.name = "push",
+                            .points = {{Tree::base()}},
+                            .evaluate =
+                                [](const ElementView& at, ElementForces& out) {
+                                    for (const int i : {1, 2}) out.Q(i) += 20 * at.qd(i);
+                                },
+                            .jacobian =
+                                [](const ElementView&, ElementJacobian& d) {
+                                    for (const int i : {1, 2}) d.Q_qd(i, i) += 20;
+                                }});
     };
     const SmallRotor rotor = small_rotor(spec);
     const std::vector<CampbellCase> cases{{&rotor.system, &rotor.map, 2, 7}};

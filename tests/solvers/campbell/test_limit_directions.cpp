@@ -17,7 +17,7 @@ namespace {
 // Two coordinates in a plane, with mass, springs and dampers alike, and a force that is a function of both.
 struct Plane {
     double mass = 1, stiffness = 1, damping = 0;
-    std::function<void(double parameter, const StateView& in, VectorOut Q)> force = {};
+    std::function<void(double parameter, const ElementView& in, VectorOut Q)> force = {};
     RotorMap map = {};  // without parts
     std::optional<System> now = {};
 
@@ -35,9 +35,11 @@ struct Plane {
                 at = tree.add_frame(tree.frame_of(id), back, text("place ", name));
                 forces.add_spring(text("spring ", name), id, stiffness, damping);
             }
-            forces.add_user({.name = "force", .force = [this, parameter](const StateView& in, VectorOut Q) {
-                                 force(parameter, in, Q);
-                             }});
+            forces.add_element({.name = "force",
+                                .points = {{Tree::base()}},
+                                .evaluate = [this, parameter](const ElementView& in, ElementForces& out) {
+                                    force(parameter, in, out.Q);
+                                }});
             now.emplace(tree, forces);
             return CampbellCase{.system = &*now, .rotor = &map};
         };
@@ -46,7 +48,7 @@ struct Plane {
 
 // m z'' + c z' + (k - i q) z = 0, z = x + i y: whirls forward from q = c sqrt(k / m) on.
 Plane jeffcott() {
-    return {.mass = 10, .stiffness = 1e6, .damping = 60, .force = [](double q, const StateView& in, VectorOut Q) {
+    return {.mass = 10, .stiffness = 1e6, .damping = 60, .force = [](double q, const ElementView& in, VectorOut Q) {
                 Q(0) -= q * in.q(1);
                 Q(1) += q * in.q(0);
             }};
@@ -56,7 +58,7 @@ Plane jeffcott() {
 // the spin g. From k = 0 on there is a positive root.
 Plane top(double sense) {
     constexpr double springs = 3, g = 4;
-    return {.stiffness = springs, .force = [=](double parameter, const StateView& in, VectorOut Q) {
+    return {.stiffness = springs, .force = [=](double parameter, const ElementView& in, VectorOut Q) {
                 const double k = sense * parameter;
                 Q(0) += (springs - k) * in.q(0) - g * in.qd(1);
                 Q(1) += (springs + 1) * in.q(1) + g * in.qd(0);
@@ -124,15 +126,15 @@ TEST_CASE("stability limits: an oscillating lag is named after its states, and l
                                            .axis = Vec3::UnitX(),
                                            .inertia = {2, Vec3::Zero(), Mat3::Zero()}});
         forces.add_spring("spring", link.body, 50, 1);
-        StateElement lag{.name = "lag", .coordinates = {link.body}};
+        ForceElement lag{.name = "lag", .coordinates = {link.body}};
         for (const char* name : {"one", "two"})
             lag.states.push_back({.name = name, .unit = "N", .scale = 10, .part = "wake"});
-        lag.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
-            Q(0) = weak * in.s(0);
-            f(0) = -a * in.s(0) - w * in.s(1) + weak * in.q(0);
-            f(1) = w * in.s(0) - a * in.s(1);
+        lag.evaluate = [](const ElementView& in, ElementForces& out) {
+            out.Q(0) = weak * in.s(0);
+            out.f(0) = -a * in.s(0) - w * in.s(1) + weak * in.q(0);
+            out.f(1) = w * in.s(0) - a * in.s(1);
         };
-        forces.add_states(lag);
+        forces.add_element(lag);
         now.emplace(tree, forces);
         return CampbellCase{.system = &*now, .rotor = &map};
     };
@@ -152,7 +154,7 @@ TEST_CASE("stability limits: an oscillating lag is named after its states, and l
 TEST_CASE("campbell: a frequency is in doubt from a damping ratio of 0.4 on", "[analytic]") {
     for (const double zeta : {0.39, 0.41}) {
         Plane disc{.mass = 2, .stiffness = 50, .damping = 2 * zeta * std::sqrt(2 * 50.0)};
-        disc.force = [](double, const StateView& in, VectorOut Q) { Q(1) -= 5000 * in.q(1); };
+        disc.force = [](double, const ElementView& in, VectorOut Q) { Q(1) -= 5000 * in.q(1); };
         const CampbellCase one = disc.family()(0);
         const Campbell diagram = campbell(*one.system, *one.rotor, {0.0}, {.max_frequency_hz = 100});
         REQUIRE(diagram.branches.size() == 2);

@@ -69,13 +69,13 @@ System lagging_spring(double g) {
                                        .axis = Vec3::UnitX(),
                                        .inertia = {lag_mass, Vec3::Zero(), Mat3::Zero()}});
     forces.add_spring("spring", link.body, lag_stiffness);
-    StateElement lag{
+    ForceElement lag{
         .name = "lag", .states = {{.name = "lagging force", .unit = "N", .scale = 10}}, .coordinates = {link.body}};
-    lag.rates = [g](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q(0) = in.s(0);
-        f(0) = (g * in.q(0) - in.s(0)) / lag_time;
+    lag.evaluate = [g](const ElementView& in, ElementForces& out) {
+        out.Q(0) = in.s(0);
+        out.f(0) = (g * in.q(0) - in.s(0)) / lag_time;
     };
-    forces.add_states(lag);
+    forces.add_element(lag);
     return {tree, forces};
 }
 
@@ -96,18 +96,18 @@ struct DampedRotor {
             SmallRotorSpec spec{.stiffness = std::vector<double>(blades, 2000.0), .damping = 2};
             spec.more = [less](ForceSet& forces, const std::vector<std::vector<BodyId>>& bodies) {
                 for (const std::vector<BodyId>& blade : bodies) {
-                    StateElement driven{.name = text("driven ", blade[0].index),
+                    ForceElement driven{.name = text("driven ", blade[0].index),
                                         .states = {{.name = text("unused ", blade[0].index),
                                                     .unit = "1",
                                                     .scale = 1,
                                                     .part = "blade",
                                                     .blade = static_cast<int>(&blade - bodies.data()) + 1}},
                                         .coordinates = {blade[0]}};
-                    driven.rates = [less](const StateInput& in, VectorOut Q, VectorOut f) {
-                        Q(0) = less * in.qd(0);
-                        f(0) = -in.s(0);
+                    driven.evaluate = [less](const ElementView& in, ElementForces& out) {
+                        out.Q(0) = less * in.qd(0);
+                        out.f(0) = -in.s(0);
                     };
-                    forces.add_states(driven);
+                    forces.add_element(driven);
                 }
             };
             now.emplace(small_rotor(spec));
@@ -227,10 +227,11 @@ TEST_CASE("stability limits: damping that turns with a shaft makes it whirl from
     }
     const Model model(tree);
     const int y = model.index(pair[0]), z = model.index(pair[1]), turns = model.index(spin.body);
-    forces.add_user({.name = "bath", .force = [=](const StateView& in, VectorOut Q) {
-                         Q(y) -= outside * (in.qd(y) - in.qd(turns) * in.q(z));
-                         Q(z) -= outside * (in.qd(z) + in.qd(turns) * in.q(y));
-                     }});
+    forces.add_element(
+        {.name = "bath", .points = {{Tree::base()}}, .evaluate = [=](const ElementView& in, ElementForces& out) {
+             out.Q(y) -= outside * (in.qd(y) - in.qd(turns) * in.q(z));
+             out.Q(z) -= outside * (in.qd(z) + in.qd(turns) * in.q(y));
+         }});
     const System system(tree, forces);
     RotorMap map;
     map.machine = "shaft";
@@ -311,8 +312,10 @@ TEST_CASE("stability limits: a steady state is sought from that of the neighbour
         Tree tree;
         add_joint(tree, {.name = "needle", .inertia = {1, {1, 0, 0}, Mat3::Zero()}});
         ForceSet forces;
-        forces.add_user(
-            {.name = "magnet", .force = [p](const StateView& in, VectorOut Q) { Q(0) -= std::sin(in.q(0) - p); }});
+        forces.add_element(
+            {.name = "magnet", .coordinates = {BodyId{0}}, .evaluate = [p](const ElementView& in, ElementForces& out) {
+                 out.Q(0) -= std::sin(in.q(0) - p);
+             }});
         return System(tree, forces);
     }};
     needle.map.machine = "needle";

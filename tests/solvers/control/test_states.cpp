@@ -26,20 +26,20 @@ struct PushedMass {
             tree, {.name = "slider", .kind = JointKind::prismatic, .inertia = {m, Vec3::Zero(), Mat3::Zero()}});
         forces.add_spring("spring", mass.body, k, d);
         forces.add_input({.name = "demand", .unit = "N", .scale = 10, .initial = 5});
-        StateElement lag{.name = "actuator",
+        ForceElement lag{.name = "actuator",
                          .states = {{.name = "force", .unit = "N", .scale = 10, .initial = 5}},
                          .coordinates = {mass.body},
                          .inputs = {"demand"}};
-        lag.rates = [t = tau](const StateInput& in, VectorOut Q, VectorOut f) {
-            Q(0) = in.s(0);
-            f(0) = (in.u(0) - in.s(0)) / t;
+        lag.evaluate = [t = tau](const ElementView& in, ElementForces& out) {
+            out.Q(0) = in.s(0);
+            out.f(0) = (in.u(0) - in.s(0)) / t;
         };
-        lag.jacobian = [t = tau](const StateInput&, StateJacobian& D) {
+        lag.jacobian = [t = tau](const ElementView&, ElementJacobian& D) {
             D.Q_s(0, 0) = 1;
             D.f_s(0, 0) = -1 / t;
             D.f_u(0, 0) = 1 / t;
         };
-        forces.add_states(lag);
+        forces.add_element(lag);
         return {tree, forces};
     }
     Complex transfer(Complex s) const { return 1.0 / ((m * s * s + d * s + k) * (tau * s + 1.0)); }

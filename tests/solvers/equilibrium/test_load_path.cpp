@@ -238,20 +238,23 @@ TEST_CASE("load factor: wrenches, user forces and, if wanted, gravity are multip
     set.add_wrench({"dead", b.axes, {{1, 2, 3}, Vec3::Zero()}, WrenchAxes::base});
     set.add_wrench({"follower", b.axes, {{-1, 0, 2}, {0.3, 0.1, 0}}, WrenchAxes::frame});
     set.set_gravity({0, 1, -9});
-    const auto force = [](const StateView& at, VectorOut Q) {
-        Q(0) += std::sin(at.q(1)) - at.qd(0);
-        Q(1) += at.q(0) * at.q(1);
+    const auto force = [](const ElementView& at, ElementForces& out) {
+        out.Q(0) += std::sin(at.q(1)) - at.qd(0);
+        out.Q(1) += at.q(0) * at.q(1);
     };
-    set.add_user({"differenced", force, {}, [](const StateView& at) { return at.q(0); }});
-    set.add_user({"exact",
-                  force,
-                  [](const StateView& at, MatrixOut by_q, MatrixOut by_qd) {
-                      by_q(0, 1) += std::cos(at.q(1));
-                      by_q(1, 0) += at.q(1);
-                      by_q(1, 1) += at.q(0);
-                      by_qd(0, 0) -= 1;
-                  },
-                  {}});
+    set.add_element({.name = "differenced",
+                     .coordinates = {a.body, b.body},
+                     .evaluate = force,
+                     .potential = [](const ElementView& at) { return at.q(0); }});
+    set.add_element({.name = "exact",
+                     .coordinates = {a.body, b.body},
+                     .evaluate = force,
+                     .jacobian = [](const ElementView& at, ElementJacobian& d) {
+                         d.Q_q(0, 1) = std::cos(at.q(1));
+                         d.Q_q(1, 0) = at.q(1);
+                         d.Q_q(1, 1) = at.q(0);
+                         d.Q_qd(0, 0) = -1;
+                     }});
     const System system(tree, set);
     const Vector q = (Vector(2) << 0.7, -0.4).finished(), qd = (Vector(2) << 0.2, 0.5).finished();
     Workspace workspace(system.model);

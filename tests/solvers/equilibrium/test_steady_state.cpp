@@ -273,13 +273,14 @@ TEST_CASE("steady state: forces that are not a number are no equilibrium, and no
     double extra = 0.1;
     ForceSet forces;
     forces.add_spring("spring", arm, 2.0);
-    forces.add_user({.name = "user",
-                     .force =
-                         [&](const StateView&, VectorOut Q) {
-                             if (extra > 5) throw std::runtime_error("from a user force");
-                             Q(0) += extra;
-                         },
-                     .jacobian = [](const StateView&, MatrixOut, MatrixOut) {}});
+    forces.add_element({.name = "user",
+                        .coordinates = {arm},
+                        .evaluate =
+                            [&](const ElementView&, ElementForces& out) {
+                                if (extra > 5) throw std::runtime_error("from a user force");
+                                out.Q(0) += extra;
+                            },
+                        .jacobian = [](const ElementView&, ElementJacobian&) {}});
     const System system(tree, forces);
     SteadySolver solver(system, -1);
     SteadyState state;

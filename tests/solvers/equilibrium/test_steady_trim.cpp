@@ -25,23 +25,23 @@ struct SpeedLoop {
         SmallRotorSpec spec{.damping = 2};
         spec.more = [own = *this](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
             forces.add_input({.name = "generator torque", .unit = "N m", .scale = 1000, .initial = own.generator});
-            StateElement loop{.name = "speed loop",
+            ForceElement loop{.name = "speed loop",
                               .states = {{.name = "pitch integral", .unit = "rad", .scale = 0.1}},
                               .coordinates = {BodyId{0}},
                               .inputs = {"generator torque"}};
-            loop.rates = [own](const StateInput& in, VectorOut Q, VectorOut f) {
+            loop.evaluate = [own](const ElementView& in, ElementForces& out) {
                 const double error = in.qd(0) - own.reference;
-                Q(0) = own.T0 - own.slope * error - own.by_pitch * (own.proportional * error + in.s(0)) - in.u(0);
-                f(0) = own.integrates ? own.integral * error : own.integral * error - 3 * in.s(0);
+                out.Q(0) = own.T0 - own.slope * error - own.by_pitch * (own.proportional * error + in.s(0)) - in.u(0);
+                out.f(0) = own.integrates ? own.integral * error : own.integral * error - 3 * in.s(0);
             };
-            loop.jacobian = [own](const StateInput&, StateJacobian& d) {
+            loop.jacobian = [own](const ElementView&, ElementJacobian& d) {
                 d.Q_qd(0, 0) = -own.slope - own.by_pitch * own.proportional;
                 d.Q_s(0, 0) = -own.by_pitch;
                 d.Q_u(0, 0) = -1;
                 d.f_qd(0, 0) = own.integral;
                 d.f_s(0, 0) = own.integrates ? 0 : -3;
             };
-            forces.add_states(loop);
+            forces.add_element(loop);
         };
         return small_rotor(spec);
     }

@@ -122,13 +122,13 @@ TEST_CASE("coleman with states: a state whose rate changes with the azimuth is t
     const auto warning = [](bool periodic) {
         SmallRotorSpec spec{.damping = 2, .hinges = BladeHinges::flap_and_lag, .elastic_support = true};
         spec.more = [periodic](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
-            StateElement sensor{.name = "sensor",
+            ForceElement sensor{.name = "sensor",
                                 .states = {{.name = "sensor", .unit = "rad/s", .scale = 1}},
                                 .coordinates = {BodyId{0}, BodyId{2}}};  // tilt and spin
-            sensor.rates = [periodic](const StateInput& in, VectorOut, VectorOut f) {
-                f(0) = (periodic ? std::cos(in.q(1)) : 1.0) * in.qd(0) - 2 * in.s(0);
+            sensor.evaluate = [periodic](const ElementView& in, ElementForces& out) {
+                out.f(0) = (periodic ? std::cos(in.q(1)) : 1.0) * in.qd(0) - 2 * in.s(0);
             };
-            forces.add_states(sensor);
+            forces.add_element(sensor);
         };
         const SmallRotor rotor = small_rotor(spec);
         CHECK(rotor.map.spin == 2);

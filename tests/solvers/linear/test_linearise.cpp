@@ -60,7 +60,7 @@ Matrix inertia_derivative(const Sample& s, By by) {
 
 Matrix force_derivative(const Sample& s, const Forces& forces, By by) {
     return derivative(s, by, [&](const auto& kin, const auto& q, const auto& qd, const auto&, auto& value) {
-        forces.generalised_forces_of_elements<Complex>(kin, q, qd, value);
+        forces.generalised_forces_of_laws<Complex>(kin, q, qd, value);
     });
 }
 

@@ -68,19 +68,19 @@ struct Maxwell {
         ForceSet forces;
         const Link mass = slider(tree, m);
         forces.add_spring("spring", mass.body, k0);
-        StateElement element{.name = "Maxwell element",
+        ForceElement element{.name = "Maxwell element",
                              .states = {{.name = "force", .unit = "N", .scale = 10 * unit}},
                              .coordinates = {mass.body}};
-        element.rates = [*this](const StateInput& in, VectorOut Q, VectorOut f) {
-            Q(0) = -in.s(0) / unit;
-            f(0) = k * in.qd(0) * unit - k / c * in.s(0);
+        element.evaluate = [*this](const ElementView& in, ElementForces& out) {
+            out.Q(0) = -in.s(0) / unit;
+            out.f(0) = k * in.qd(0) * unit - k / c * in.s(0);
         };
-        element.jacobian = [*this](const StateInput&, StateJacobian& d) {
+        element.jacobian = [*this](const ElementView&, ElementJacobian& d) {
             d.Q_s(0, 0) = -1 / unit;
             d.f_qd(0, 0) = k * unit;
             d.f_s(0, 0) = -k / c;
         };
-        forces.add_states(element);
+        forces.add_element(element);
         return {tree, forces};
     }
 };
@@ -130,14 +130,14 @@ TEST_CASE("states, linear: a rotor with an eddy-current coupling to a turning fi
     Tree tree;
     ForceSet forces;
     const Link shaft = rotor(tree, J);
-    StateElement coupling{.name = "eddy-current coupling",
+    ForceElement coupling{.name = "eddy-current coupling",
                           .states = {{.name = "torque", .unit = "N m", .scale = 100}},
                           .coordinates = {shaft.body}};
-    coupling.rates = [=](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q(0) = in.s(0);
-        f(0) = (k * (field - in.qd(0)) - in.s(0)) / tau;
+    coupling.evaluate = [=](const ElementView& in, ElementForces& out) {
+        out.Q(0) = in.s(0);
+        out.f(0) = (k * (field - in.qd(0)) - in.s(0)) / tau;
     };
-    forces.add_states(coupling);
+    forces.add_element(coupling);
     const System system(tree, forces);
     check_eigenvalues(modes_at_rest(system), roots({J * tau, J, k}), 1e-9);  // differenced
     // At a prescribed speed the torque is that of the slip.
@@ -153,18 +153,18 @@ TEST_CASE("states, linear: a pendulum with an actuator of first order", "[analyt
     ForceSet forces;
     const Link arm = rotor(tree, J);
     forces.add_spring("hinge", arm.body, k);
-    StateElement actuator{
+    ForceElement actuator{
         .name = "actuator", .states = {{.name = "torque", .unit = "N m", .scale = 5}}, .coordinates = {arm.body}};
-    actuator.rates = [=](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q(0) = in.s(0);
-        f(0) = -(gain * in.q(0) + in.s(0)) / tau;
+    actuator.evaluate = [=](const ElementView& in, ElementForces& out) {
+        out.Q(0) = in.s(0);
+        out.f(0) = -(gain * in.q(0) + in.s(0)) / tau;
     };
-    actuator.jacobian = [=](const StateInput&, StateJacobian& d) {
+    actuator.jacobian = [=](const ElementView&, ElementJacobian& d) {
         d.Q_s(0, 0) = 1;
         d.f_q(0, 0) = -gain / tau;
         d.f_s(0, 0) = -1 / tau;
     };
-    forces.add_states(actuator);
+    forces.add_element(actuator);
     const System system(tree, forces);
     check_eigenvalues(modes_at_rest(system), roots({J * tau, J, k * tau, k + gain}));
     const SecondOrderSystem linear = restrict_to(linearise(system, start_of(system)), {0});
@@ -179,20 +179,20 @@ TEST_CASE("states, linear: a PI controller of a rotor's speed; the integral find
     ForceSet forces;
     const Link shaft = rotor(tree, J);
     forces.add_spring("bearing", shaft.body, 0, d);
-    StateElement controller{
+    ForceElement controller{
         .name = "speed controller",
         .states = {{.name = "integral of the speed error", .unit = "rad", .scale = 0.5, .kind = StateKind::integrator}},
         .coordinates = {shaft.body}};
-    controller.rates = [=](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q(0) = load - p * (in.qd(0) - wanted) - i * in.s(0);
-        f(0) = in.qd(0) - wanted;
+    controller.evaluate = [=](const ElementView& in, ElementForces& out) {
+        out.Q(0) = load - p * (in.qd(0) - wanted) - i * in.s(0);
+        out.f(0) = in.qd(0) - wanted;
     };
-    controller.jacobian = [=](const StateInput&, StateJacobian& D) {
+    controller.jacobian = [=](const ElementView&, ElementJacobian& D) {
         D.Q_qd(0, 0) = -p;
         D.Q_s(0, 0) = -i;
         D.f_qd(0, 0) = 1;
     };
-    forces.add_states(controller);
+    forces.add_element(controller);
     const System system(tree, forces);
     check_eigenvalues(modes_at_rest(system), roots({J, d + p, i}));
     CHECK_THROWS_AS(static_stiffness(restrict_to(linearise(system, start_of(system)), {0})), NumericalError);
@@ -204,15 +204,15 @@ TEST_CASE("states, linear: cascades of lags beside a structure keep the structur
     ForceSet forces;
     const Link mass = slider(tree, 2);
     forces.add_spring("spring", mass.body, 50, 0.3);
-    StateElement filters{
+    ForceElement filters{
         .name = "filters",
         .states = {{.name = "first", .unit = "m", .scale = 0.1}, {.name = "second", .unit = "m", .scale = 0.1}},
         .coordinates = {mass.body}};
-    filters.rates = [](const StateInput& in, VectorOut, VectorOut f) {
-        f(0) = 3 * (in.q(0) - in.s(0));
-        f(1) = 3 * (in.s(0) - in.s(1));
+    filters.evaluate = [](const ElementView& in, ElementForces& out) {
+        out.f(0) = 3 * (in.q(0) - in.s(0));
+        out.f(1) = 3 * (in.s(0) - in.s(1));
     };
-    forces.add_states(filters);
+    forces.add_element(filters);
     const std::vector<Mode> found = modes_at_rest(System(tree, forces));
     int vibrations = 0;
     for (const Mode& mode : found) {
@@ -234,14 +234,14 @@ TEST_CASE("states, steady: states and coordinates together, whatever the size of
         ForceSet forces;
         const Link mass = slider(tree, 2);
         forces.set_gravity({0, 0, -10});
-        StateElement lag{.name = "moving rest",
+        ForceElement lag{.name = "moving rest",
                          .states = {{.name = "rest", .unit = "m", .scale = 0.5 * unit}},
                          .coordinates = {mass.body}};
-        lag.rates = [unit](const StateInput& in, VectorOut Q, VectorOut f) {
-            Q(0) = -40 * (in.q(0) - in.s(0) / unit);
-            f(0) = (0.6 * std::tanh(in.q(0)) * unit - in.s(0)) / 0.2;
+        lag.evaluate = [unit](const ElementView& in, ElementForces& out) {
+            out.Q(0) = -40 * (in.q(0) - in.s(0) / unit);
+            out.f(0) = (0.6 * std::tanh(in.q(0)) * unit - in.s(0)) / 0.2;
         };
-        forces.add_states(lag);
+        forces.add_element(lag);
         const System system(tree, forces);
         const SteadyState found = steady_state(system, -1);
         REQUIRE(found.converged);
@@ -257,11 +257,11 @@ TEST_CASE("states, steady: a state that nothing determines is told, and bad star
     ForceSet forces;
     const Link mass = slider(tree, 2);
     forces.add_spring("spring", mass.body, 50);
-    StateElement loose{.name = "loose",
+    ForceElement loose{.name = "loose",
                        .states = {{.name = "sum", .unit = "m s", .scale = 1, .kind = StateKind::integrator}},
                        .coordinates = {mass.body}};
-    loose.rates = [](const StateInput& in, VectorOut, VectorOut f) { f(0) = in.q(0) - 1; };
-    forces.add_states(loose);
+    loose.evaluate = [](const ElementView& in, ElementForces& out) { out.f(0) = in.q(0) - 1; };
+    forces.add_element(loose);
     const System system(tree, forces);
     const SteadyState found = steady_state(system, -1);
     CHECK_FALSE(found.converged);
@@ -281,12 +281,12 @@ TEST_CASE("states, linear: an angle that grows for ever is left alone in the ste
     Tree tree;
     ForceSet forces;
     const Link shaft = rotor(tree, 2);
-    StateElement clock{
+    ForceElement clock{
         .name = "grid",
         .states = {{.name = "grid angle", .unit = "rad", .scale = 1, .initial = 0.4, .kind = StateKind::angle}},
         .coordinates = {shaft.body}};
-    clock.rates = [](const StateInput&, VectorOut, VectorOut f) { f(0) = 314; };
-    forces.add_states(clock);
+    clock.evaluate = [](const ElementView&, ElementForces& out) { out.f(0) = 314; };
+    forces.add_element(clock);
     const SteadyState found = steady_state(System(tree, forces), 0, {.rotor_speed = 2});
     REQUIRE(found.converged);
     CHECK(found.at.s(0) == 0.4);

@@ -46,17 +46,16 @@ TEST_CASE("Floquet: bending of a rotating shaft is turned with the blades", "[cr
         forces.add_spring(text("lag ", k + 1), lag.body, 80, 1);
     }
     // A spring along one fixed direction makes the system periodic.
-    UserForce fixed;
-    fixed.name = "fixed spring";
+    ForceElement fixed{.name = "fixed spring", .points = {{Tree::base()}}};
     const System plain(tree, forces);
     const Model& model = plain.model;
     const int i_spin = model.index("spin"), i_y = model.index("y"), i_z = model.index("z");
-    fixed.force = [=](const StateView& at, VectorOut Q) {
+    fixed.evaluate = [=](const ElementView& at, ElementForces& out) {
         const double c = std::cos(at.q(i_spin)), s = std::sin(at.q(i_spin)), u = c * at.q(i_y) - s * at.q(i_z);
-        Q(i_y) -= 3000 * c * u;
-        Q(i_z) += 3000 * s * u;
+        out.Q(i_y) -= 3000 * c * u;
+        out.Q(i_z) += 3000 * s * u;
     };
-    forces.add_user(fixed);
+    forces.add_element(fixed);
     const System system(tree, forces);
     map.spin = i_spin;
     for (int k = 1; k <= 3; ++k) map.blades.push_back({model.index(text("lag ", k))});
@@ -66,7 +65,7 @@ TEST_CASE("Floquet: bending of a rotating shaft is turned with the blades", "[cr
     const double Omega = 5;
     const PeriodicSystem periodic = linearised(system, turning_undeflected(system, i_spin, Omega), unknowns);
     const BladeSymmetry blades = blade_symmetry(map, unknowns, Omega);
-    CHECK(asymmetry(periodic, blades) < 1e-8);  // the user force is differenced
+    CHECK(asymmetry(periodic, blades) < 1e-8);  // the force element is differenced
     const Floquet whole = floquet(periodic), third = floquet(periodic, {.symmetry = blades});
     CHECK(distance(exponents(whole), exponents(third), Omega) < 1e-9);
     map.rotating_pairs.clear();

@@ -120,18 +120,19 @@ TEST_CASE("mean Jacobian: a mean that nothing holds stays where it started, with
                         .lag_damping = 30,
                         .elastic_support = true};
     spec.more = [](ForceSet& forces, const std::vector<std::vector<BodyId>>&) {
-        const auto angle = [](const StateView& at, int blade) { return 2 * (at.q(2) + 2 * pi * blade / 3); };
-        forces.add_user({.name = "moved",
-                         .force =
-                             [angle](const StateView& at, VectorOut Q) {
-                                 Q(1) += 7000 * at.q(1);
-                                 for (int k = 0; k < 3; ++k) Q(3 + 2 * k) += 1e-4 * std::cos(angle(at, k));
-                             },
-                         .jacobian =
-                             [angle](const StateView& at, MatrixOut dQ_dq, MatrixOut) {
-                                 dQ_dq(1, 1) += 7000;
-                                 for (int k = 0; k < 3; ++k) dQ_dq(3 + 2 * k, 2) -= 2e-4 * std::sin(angle(at, k));
-                             }});
+        const auto angle = [](const ElementView& at, int blade) { return 2 * (at.q(2) + 2 * pi * blade / 3); };
+        forces.add_element({.name = "moved",
+                            .points = {{Tree::base()}},
+                            .evaluate =
+                                [angle](const ElementView& at, ElementForces& out) {
+                                    out.Q(1) += 7000 * at.q(1);
+                                    for (int k = 0; k < 3; ++k) out.Q(3 + 2 * k) += 1e-4 * std::cos(angle(at, k));
+                                },
+                            .jacobian =
+                                [angle](const ElementView& at, ElementJacobian& d) {
+                                    d.Q_q(1, 1) += 7000;
+                                    for (int k = 0; k < 3; ++k) d.Q_q(3 + 2 * k, 2) -= 2e-4 * std::sin(angle(at, k));
+                                }});
     };
     const SmallRotor rotor = small_rotor(spec);
     const int yaw = rotor.system.model.index("yaw");

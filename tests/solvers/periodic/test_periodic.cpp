@@ -21,24 +21,25 @@ constexpr JointKind slides = JointKind::prismatic;
 struct Slider {
     double m = 1, k = 1, c = 0.1;
 
-    System system(UserForce force) const {
+    System system(ForceElement force) const {
         Tree tree;
         ForceSet forces;
         add_joint(tree, {.name = "wheel", .inertia = {1, Vec3::Zero(), Mat3::Identity()}});
         const Link mass =
             add_joint(tree, {.name = "mass", .kind = slides, .axis = Vec3::UnitX(), .inertia = {m, Vec3::Zero()}});
         if (k > 0) forces.add_spring("spring", mass.body, k, c);
-        if (force.force) forces.add_user(std::move(force));
+        if (force.evaluate) forces.add_element(std::move(force));
         return System(tree, forces);
     }
 };
 
 // -k3 x^3 + load(t) on coordinate 1.
-UserForce cubic(double k3, std::function<double(double)> load) {
-    UserForce force;
-    force.name = "cubic spring and load";
-    force.force = [=](const StateView& at, VectorOut Q) { Q(1) += load(at.time) - k3 * std::pow(at.q(1), 3); };
-    force.jacobian = [=](const StateView& at, MatrixOut dq, MatrixOut) { dq(1, 1) -= 3 * k3 * at.q(1) * at.q(1); };
+ForceElement cubic(double k3, std::function<double(double)> load) {
+    ForceElement force{.name = "cubic spring and load", .coordinates = {BodyId{1}}};
+    force.evaluate = [=](const ElementView& at, ElementForces& out) {
+        out.Q(0) = load(at.time) - k3 * std::pow(at.q(0), 3);
+    };
+    force.jacobian = [=](const ElementView& at, ElementJacobian& d) { d.Q_q(0, 0) = -3 * k3 * at.q(0) * at.q(0); };
     return force;
 }
 
@@ -323,11 +324,12 @@ TEST_CASE("harmonic balance: it is cancelled at any azimuth, and says so", "[pro
 TEST_CASE("periodic state: a sweep follows the upper branch of a hardening resonance", "[property]") {
     const Slider slider;
     // The load is fixed in time, not in azimuth, so the wheel must turn at its frequency: F cos(psi) by the wheel.
-    UserForce force = cubic(0.1, [](double) { return 0.0; });
-    const auto spring = force.force;
-    force.force = [spring](const StateView& at, VectorOut Q) {
-        spring(at, Q);
-        Q(1) += 0.4 * std::cos(at.q(0));
+    ForceElement force = cubic(0.1, [](double) { return 0.0; });
+    force.coordinates = {BodyId{1}, BodyId{0}};
+    const auto spring = force.evaluate;
+    force.evaluate = [spring](const ElementView& at, ElementForces& out) {
+        spring(at, out);
+        out.Q(0) += 0.4 * std::cos(at.q(1));
     };
     const System system = slider.system(force);
     std::vector<double> speeds;

@@ -26,22 +26,24 @@ struct MaxwellOscillator {
         const Link mass = add_joint(
             tree, {.name = "mass", .kind = JointKind::prismatic, .axis = Vec3::UnitX(), .inertia = {m, Vec3::Zero()}});
         forces.add_spring("spring", mass.body, k, c);
-        UserForce shaking{.name = "load"};
-        shaking.force = [F = load](const StateView& at, VectorOut Q) { Q(1) += F * (std::cos(at.q(0)) + 2); };
-        forces.add_user(shaking);
-        StateElement maxwell{.name = "Maxwell element",
+        ForceElement shaking{.name = "load", .coordinates = {BodyId{0}, BodyId{1}}};
+        shaking.evaluate = [F = load](const ElementView& at, ElementForces& out) {
+            out.Q(1) += F * (std::cos(at.q(0)) + 2);
+        };
+        forces.add_element(shaking);
+        ForceElement maxwell{.name = "Maxwell element",
                              .states = {{.name = "force", .unit = "N", .scale = 10 / unit}},
                              .coordinates = {mass.body}};
-        maxwell.rates = [own = *this](const StateInput& in, VectorOut Q, VectorOut f) {
-            f(0) = own.K * in.qd(0) / own.unit - own.K / own.eta * in.s(0);
-            Q(0) = -own.unit * in.s(0);
+        maxwell.evaluate = [own = *this](const ElementView& in, ElementForces& out) {
+            out.f(0) = own.K * in.qd(0) / own.unit - own.K / own.eta * in.s(0);
+            out.Q(0) = -own.unit * in.s(0);
         };
-        maxwell.jacobian = [own = *this](const StateInput&, StateJacobian& d) {
+        maxwell.jacobian = [own = *this](const ElementView&, ElementJacobian& d) {
             d.f_qd(0, 0) = own.K / own.unit;
             d.f_s(0, 0) = -own.K / own.eta;
             d.Q_s(0, 0) = -own.unit;
         };
-        forces.add_states(maxwell);
+        forces.add_element(maxwell);
         return System(tree, forces);
     }
     // Of exp(i w t): displacement and force.
@@ -159,18 +161,18 @@ TEST_CASE("periodic state: what a state's equation leaves open is told, and an a
     Tree tree;
     ForceSet forces;
     const Link wheel = add_joint(tree, {.name = "wheel", .inertia = {1, Vec3::Zero(), Mat3::Identity()}});
-    StateElement machine{.name = "machine",
+    ForceElement machine{.name = "machine",
                          .states = {{.name = "sum of the error", .unit = "rad", .scale = 1, .initial = 0.3},
                                     {.name = "grid angle", .unit = "rad", .scale = 1, .kind = StateKind::angle},
                                     {.name = "current", .unit = "A", .scale = 10}},
                          .coordinates = {wheel.body}};
     const double Omega = 3;
-    machine.rates = [](const StateInput& in, VectorOut, VectorOut f) {
-        f(0) = in.qd(0) - 3;
-        f(1) = 50;
-        f(2) = std::cos(in.q(0)) - 2 * in.s(2);
+    machine.evaluate = [](const ElementView& in, ElementForces& out) {
+        out.f(0) = in.qd(0) - 3;
+        out.f(1) = 50;
+        out.f(2) = std::cos(in.q(0)) - 2 * in.s(2);
     };
-    forces.add_states(machine);
+    forces.add_element(machine);
     const System system(tree, forces);
     PeriodicOptions options = at_speed(Omega, 3);
     const PeriodicSteadyState state = harmonic_balance(system, 0, options);

@@ -54,13 +54,16 @@ struct Oscillator {
     double position(double t) const {  // from 0.3 at rest
         return 0.3 * std::exp(-decay() * t) * (std::cos(omega() * t) + decay() / omega() * std::sin(omega() * t));
     }
-    System system(std::vector<UserForce> users = {}) const {
+    System system(std::vector<ForceElement> users = {}) const {
         Tree tree;
         ForceSet forces;
         const Link mass = add_joint(
             tree, {.name = "slider", .kind = JointKind::prismatic, .inertia = {m, Vec3::Zero(), Mat3::Zero()}});
         if (k > 0) forces.add_spring("spring", mass.body, k, c);
-        for (UserForce& user : users) forces.add_user(user);
+        for (ForceElement& user : users) {
+            user.coordinates = {mass.body};
+            forces.add_element(user);
+        }
         return {tree, forces};
     }
 };

@@ -21,13 +21,13 @@ struct Circuit {
         ForceSet forces;
         add_joint(tree,
                   {.name = "locked", .inertia = {1, Vec3::Zero(), Mat3::Identity()}, .role = CoordinateRole::driven});
-        StateElement element{
+        ForceElement element{
             .name = "circuit",
             .states = {{.name = "current", .unit = "A", .scale = 1}, {.name = "charge", .unit = "C", .scale = 0.1}}};
-        element.rates = [own = *this](const StateInput& in, VectorOut, VectorOut f) {
-            f << (own.u - own.R * in.s(0) - in.s(1) / own.C) / own.L, in.s(0);
+        element.evaluate = [own = *this](const ElementView& in, ElementForces& out) {
+            out.f << (own.u - own.R * in.s(0) - in.s(1) / own.C) / own.L, in.s(0);
         };
-        forces.add_states(element);
+        forces.add_element(element);
         return {tree, forces};
     }
 };

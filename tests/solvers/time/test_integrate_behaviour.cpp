@@ -84,8 +84,8 @@ TEST_CASE("integrate: a failure says when, why and which coordinate", "[solvers]
     // x'' = x^3 with x = sqrt(2) / (1 - t) ends in infinity at t = 1.
     const System system = Oscillator{.m = 1, .k = 0}.system(
         {{.name = "explosion",
-          .force = [](const StateView& at, VectorOut Q) { Q(0) += at.q(0) * at.q(0) * at.q(0); },
-          .jacobian = [](const StateView& at, MatrixOut by_q, MatrixOut) { by_q(0, 0) += 3 * at.q(0) * at.q(0); }}});
+          .evaluate = [](const ElementView& at, ElementForces& out) { out.Q(0) += at.q(0) * at.q(0) * at.q(0); },
+          .jacobian = [](const ElementView& at, ElementJacobian& d) { d.Q_q(0, 0) = 3 * at.q(0) * at.q(0); }}});
     for (Method method : methods) {
         Integrator integrator(system, {}, 0, vector({std::sqrt(2.0)}), vector({std::sqrt(2.0)}), with(method, 1e-5));
         const Advance advance = integrator.advance(2);
@@ -99,9 +99,10 @@ TEST_CASE("integrate: a failure says when, why and which coordinate", "[solvers]
 
 TEST_CASE("integrate: exceptions of user forces pass through, and it can be cancelled",
           "[solvers][integrate][property]") {
-    const System system = Oscillator{}.system({{.name = "thrower", .force = [](const StateView& at, VectorOut) {
-                                                    if (at.time > 1) throw std::runtime_error("thrown by the force");
-                                                }}});
+    const System system =
+        Oscillator{}.system({{.name = "thrower", .evaluate = [](const ElementView& at, ElementForces&) {
+                                  if (at.time > 1) throw std::runtime_error("thrown by the force");
+                              }}});
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         Integrator integrator(system, {}, 0, vector({0.3}), vector({0}), with(method));

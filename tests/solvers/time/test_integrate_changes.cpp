@@ -19,11 +19,11 @@ constexpr Oscillator spring_mass{};
 struct Pushed {
     std::shared_ptr<double> force = std::make_shared<double>(0);
     std::shared_ptr<long> asked = std::make_shared<long>(0);
-    System system =
-        spring_mass.system({{.name = "push", .force = [f = force, n = asked](const StateView&, VectorOut Q) {
-                                 ++*n;
-                                 Q(0) += *f;
-                             }}});
+    System system = spring_mass.system(
+        {{.name = "push", .evaluate = [f = force, n = asked](const ElementView&, ElementForces& out) {
+              ++*n;
+              out.Q(0) += *f;
+          }}});
 };
 
 // From 0.3 at rest; from `since` on under a constant force.
@@ -55,10 +55,10 @@ TEST_CASE("integrate: a force that is zero where it is changed is seen at the en
     for (Method method : methods) {
         CAPTURE(static_cast<int>(method));
         const auto c = std::make_shared<double>(0);
-        const System system =
-            Oscillator{.m = 2, .k = 0}.system({{.name = "push", .force = [c](const StateView& at, VectorOut Q) {
-                                                    Q(0) += *c * std::pow(std::max(0.0, at.time - 1), 3);
-                                                }}});
+        const System system = Oscillator{.m = 2, .k = 0}.system(
+            {{.name = "push", .evaluate = [c](const ElementView& at, ElementForces& out) {
+                  out.Q(0) += *c * std::pow(std::max(0.0, at.time - 1), 3);
+              }}});
         IntegrationOptions options = with(method);
         options.max_step = 0.3;
         Integrator integrator(system, {}, 0, vector({0.3}), vector({0}), options);
@@ -135,7 +135,7 @@ TEST_CASE("integrate: advance() within advance() is refused, wherever it is call
             (void)running->advance(5);
         };
         const System system =
-            Oscillator{}.system({{.name = "caller", .force = [&](const StateView&, VectorOut) { call(0); }}});
+            Oscillator{}.system({{.name = "caller", .evaluate = [&](const ElementView&, ElementForces&) { call(0); }}});
         IntegrationOptions options = with(method);
         options.progress = [&](double, const IntegrationStatistics&) { call(1); };
         options.cancelled = [&] {

@@ -14,7 +14,7 @@ namespace {
 
 // The oscillator with a force that is zero, but throws once after 0.7 s.
 System throws_once(const std::shared_ptr<bool>& armed) {
-    return Oscillator{}.system({{.name = "thrower", .force = [armed](const StateView& at, VectorOut) {
+    return Oscillator{}.system({{.name = "thrower", .evaluate = [armed](const ElementView& at, ElementForces&) {
                                      if (at.time > 0.7 && std::exchange(*armed, false))
                                          throw std::runtime_error("thrown by the force");
                                  }}});

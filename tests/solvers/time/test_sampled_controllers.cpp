@@ -28,20 +28,20 @@ struct Cart {
         const Link mass =
             add_joint(tree, {.name = "cart", .kind = JointKind::prismatic, .inertia = {m, Vec3::Zero(), Mat3::Zero()}});
         forces.add_input({.name = "force", .unit = "N", .scale = 1, .initial = 0});
-        StateElement lag{.name = "lag",
+        ForceElement lag{.name = "lag",
                          .states = {{.name = "lagging force", .unit = "N", .scale = 1}},
                          .coordinates = {mass.body},
                          .inputs = {"force"}};
-        lag.rates = [t = tau](const StateInput& in, VectorOut Q, VectorOut f) {
-            Q(0) = in.u(0);
-            f(0) = (in.u(0) - in.s(0)) / t;
+        lag.evaluate = [t = tau](const ElementView& in, ElementForces& out) {
+            out.Q(0) = in.u(0);
+            out.f(0) = (in.u(0) - in.s(0)) / t;
         };
-        lag.jacobian = [t = tau](const StateInput&, StateJacobian& d) {
+        lag.jacobian = [t = tau](const ElementView&, ElementJacobian& d) {
             d.Q_u(0, 0) = 1;
             d.f_u(0, 0) = 1 / t;
             d.f_s(0, 0) = -1 / t;
         };
-        forces.add_states(lag);
+        forces.add_element(lag);
         return {tree, forces};
     }
     // The discrete loop u = -kp q - kd v, held over T, in closed form: the exact step of the cart under constant force.

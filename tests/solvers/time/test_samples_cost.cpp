@@ -16,14 +16,14 @@ System driven_chain(double stiffness = 500, double damping = 1) {
     const std::vector<BodyId> hinges = add_plane_hinges(tree, 6);
     for (std::size_t i = 1; i < hinges.size(); ++i)
         forces.add_spring(text("spring ", i + 1), hinges[i], stiffness, damping);
-    StateElement motor{
+    ForceElement motor{
         .name = "motor", .states = {{.name = "motor torque", .unit = "N m", .scale = 1}}, .inputs = {"torque"}};
     motor.coordinates = {hinges[0]};
-    motor.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q(0) = in.s(0);
-        f(0) = 8 * (in.u(0) - in.s(0));
+    motor.evaluate = [](const ElementView& in, ElementForces& out) {
+        out.Q(0) = in.s(0);
+        out.f(0) = 8 * (in.u(0) - in.s(0));
     };
-    motor.jacobian = [](const StateInput&, StateJacobian& d) {
+    motor.jacobian = [](const ElementView&, ElementJacobian& d) {
         d.Q_s(0, 0) = 1;
         d.f_u(0, 0) = 8;
         d.f_s(0, 0) = -8;
@@ -31,7 +31,7 @@ System driven_chain(double stiffness = 500, double damping = 1) {
     forces.set_gravity({0, 0, -pendulum_gravity});
     forces.add_input({.name = "torque", .unit = "N m", .scale = 1, .initial = 0});
     forces.add_input({.name = "place", .unit = "rad", .scale = 1, .initial = 0.05});
-    forces.add_states(motor);
+    forces.add_element(motor);
     return {tree, forces};
 }
 

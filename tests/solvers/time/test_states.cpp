@@ -20,22 +20,22 @@ IntegrationOptions all_tolerances(Method method, double tolerance) {
 }
 
 // A spring and a damper in series, whose force creeps away: F' = k v - k/c F.  `unit` scales the state.
-StateElement maxwell(BodyId body, double k, double c, double unit = 1) {
-    StateElement element{.name = "Maxwell element",
+ForceElement maxwell(BodyId body, double k, double c, double unit = 1) {
+    ForceElement element{.name = "Maxwell element",
                          .states = {{.name = "force", .unit = "N", .scale = 10 * unit}},
                          .coordinates = {body}};
-    element.rates = [=](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q(0) = -in.s(0) / unit;
-        f(0) = k * in.qd(0) * unit - k / c * in.s(0);
+    element.evaluate = [=](const ElementView& in, ElementForces& out) {
+        out.Q(0) = -in.s(0) / unit;
+        out.f(0) = k * in.qd(0) * unit - k / c * in.s(0);
     };
-    element.jacobian = [=](const StateInput&, StateJacobian& d) {
+    element.jacobian = [=](const ElementView&, ElementJacobian& d) {
         d.Q_s(0, 0) = -1 / unit;
         d.f_qd(0, 0) = k * unit;
         d.f_s(0, 0) = -k / c;
     };
-    element.power = [=](const StateInput& in) {
+    element.power = [=](const ElementView& in) {
         const double force = in.s(0) / unit;
-        return StatePower{.stored = force * force / (2 * k), .dissipated = force * force / c};
+        return ElementPower{.stored = force * force / (2 * k), .dissipated = force * force / c};
     };
     return element;
 }
@@ -49,7 +49,7 @@ struct CreepingOscillator {
         const Link mass = add_joint(
             tree, {.name = "slider", .kind = JointKind::prismatic, .inertia = {m, Vec3::Zero(), Mat3::Zero()}});
         forces.add_spring("spring", mass.body, k0);
-        forces.add_states(maxwell(mass.body, k, c, unit));
+        forces.add_element(maxwell(mass.body, k, c, unit));
         return {tree, forces};
     }
     // From 0.3 at rest without force: the matrix exponential by its eigenvalues.
@@ -69,17 +69,17 @@ System actuated_pendulum(bool with_jacobian = true) {
     const Link arm =
         add_joint(tree, {.name = "hinge", .axis = Vec3::UnitY(), .inertia = {3, Vec3(0, 0, -1.5), Mat3::Zero()}});
     forces.set_gravity({0, 0, -pendulum_gravity});
-    StateElement actuator{.name = "actuator",
+    ForceElement actuator{.name = "actuator",
                           .states = {{.name = "torque", .unit = "N m", .scale = 20, .initial = 4},
                                      {.name = "heat", .unit = "J", .scale = 50, .kind = StateKind::integrator}},
                           .coordinates = {arm.body}};
-    actuator.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q(0) = in.s(0);
-        f(0) = (30 * std::cos(2 * in.time) - in.s(0) - 8 * in.qd(0) * in.qd(0)) / 0.4;
-        f(1) = in.s(0) * in.qd(0) - 0.1 * in.s(1);
+    actuator.evaluate = [](const ElementView& in, ElementForces& out) {
+        out.Q(0) = in.s(0);
+        out.f(0) = (30 * std::cos(2 * in.time) - in.s(0) - 8 * in.qd(0) * in.qd(0)) / 0.4;
+        out.f(1) = in.s(0) * in.qd(0) - 0.1 * in.s(1);
     };
     if (with_jacobian)
-        actuator.jacobian = [](const StateInput& in, StateJacobian& d) {
+        actuator.jacobian = [](const ElementView& in, ElementJacobian& d) {
             d.Q_s(0, 0) = 1;
             d.f_s(0, 0) = -1 / 0.4;
             d.f_qd(0, 0) = -16 * in.qd(0) / 0.4;
@@ -87,7 +87,7 @@ System actuated_pendulum(bool with_jacobian = true) {
             d.f_qd(1, 0) = in.s(0);
             d.f_s(1, 1) = -0.1;
         };
-    forces.add_states(actuator);
+    forces.add_element(actuator);
     return {tree, forces};
 }
 
@@ -313,10 +313,10 @@ TEST_CASE("states in time: a rate that is not a number ends the run and is named
     ForceSet forces;
     const Link mass =
         add_joint(tree, {.name = "slider", .kind = JointKind::prismatic, .inertia = {2, Vec3::Zero(), Mat3::Zero()}});
-    StateElement broken{
+    ForceElement broken{
         .name = "broken", .states = {{.name = "charge", .unit = "C", .scale = 1}}, .coordinates = {mass.body}};
-    broken.rates = [](const StateInput& in, VectorOut, VectorOut f) { f(0) = std::sqrt(0.5 - in.time); };
-    forces.add_states(broken);
+    broken.evaluate = [](const ElementView& in, ElementForces& out) { out.f(0) = std::sqrt(0.5 - in.time); };
+    forces.add_element(broken);
     const System system(tree, forces);
     Integrator integrator(system, {}, 0, vector({0}), vector({1}));
     const Advance end = integrator.advance(1);

@@ -29,31 +29,31 @@ TEST_CASE("states in time: the bordered factors solve what the full matrix does"
         root = tree.add_frame(link.axes, Placement::translation({0.2, 0.1, -0.7}), text("end ", i));
         set.add_spring(text("spring ", i), link.body, 40 + i, 3);
     }
-    StateElement bridge{.name = "bridge",
+    ForceElement bridge{.name = "bridge",
                         .states = {{.name = "a", .unit = "1", .scale = 1}, {.name = "b", .unit = "1", .scale = 1}},
                         .coordinates = {bodies[0], bodies[1], bodies[4]}};
-    bridge.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q << in.s(0) * in.q(2), in.s(1), -in.s(0) * in.s(1);
-        f << -in.s(0) + 2 * in.qd(0) + std::sin(in.q(2)), in.s(0) * in.q(0) - 0.3 * in.s(1) + in.qd(2);
+    bridge.evaluate = [](const ElementView& in, ElementForces& out) {
+        out.Q << in.s(0) * in.q(2), in.s(1), -in.s(0) * in.s(1);
+        out.f << -in.s(0) + 2 * in.qd(0) + std::sin(in.q(2)), in.s(0) * in.q(0) - 0.3 * in.s(1) + in.qd(2);
     };
-    set.add_states(bridge);
-    StateElement branch{.name = "branch",
+    set.add_element(bridge);
+    ForceElement branch{.name = "branch",
                         .states = {{.name = "c", .unit = "1", .scale = 1}, {.name = "d", .unit = "1", .scale = 1}},
                         .coordinates = {bodies[4], bodies[2]}};
-    branch.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q << 7 * in.s(0) * in.q(1), 4 * in.s(1);
-        f << 5 * in.qd(0) * in.s(1) - 2 * in.s(0), 3 * std::sin(in.q(1)) + in.s(0);
+    branch.evaluate = [](const ElementView& in, ElementForces& out) {
+        out.Q << 7 * in.s(0) * in.q(1), 4 * in.s(1);
+        out.f << 5 * in.qd(0) * in.s(1) - 2 * in.s(0), 3 * std::sin(in.q(1)) + in.s(0);
     };
-    set.add_states(branch);
-    StateElement reader{.name = "reader",
+    set.add_element(branch);
+    ForceElement reader{.name = "reader",
                         .states = {{.name = "e", .unit = "1", .scale = 1}},
                         .coordinates = {bodies[3]},
                         .reads = {"d"}};
-    reader.rates = [](const StateInput& in, VectorOut Q, VectorOut f) {
-        Q(0) = 6 * in.s(0) * in.others(0);
-        f(0) = in.others(0) - 4 * in.s(0) + 8 * in.q(0);
+    reader.evaluate = [](const ElementView& in, ElementForces& out) {
+        out.Q(0) = 6 * in.s(0) * in.others(0);
+        out.f(0) = in.others(0) - 4 * in.s(0) + 8 * in.q(0);
     };
-    set.add_states(reader);
+    set.add_element(reader);
     const System system(tree, set);
     const std::vector<StateGroup>& groups = system.forces.state_groups();
     REQUIRE(groups.size() == 2);

@@ -23,10 +23,10 @@ private:
     Kinematics kin_;
 };
 
-inline Vector generalised_forces(const turbines::Turbine& machine, const WrenchField& field,
+inline Vector generalised_forces(const turbines::Turbine& machine, const ForceElement& field,
                                  const MachineState& state) {
     ForceSet only;
-    only.add_field(field);
+    only.add_element(field);
     const Forces forces(only, machine.system().model);
     const FieldState at(machine, state);
     Vector Q(state.q.size());
@@ -34,14 +34,48 @@ inline Vector generalised_forces(const turbines::Turbine& machine, const WrenchF
     return Q;
 }
 
+/// What an element without states and inputs answers; its functions alone, for the allocations that they make.
+class ElementAnswers {
+public:
+    ElementAnswers(const ForceElement& element, Eigen::Index coordinates)
+        : element_(element),
+          by_q(Matrix::Zero(coordinates, coordinates)),
+          by_qd(by_q),
+          wrenches(element.points.size()),
+          Q_(Vector::Zero(coordinates)),
+          columns_(coordinates, 0),
+          rows_(0, coordinates) {}
+    void evaluate(const StateView& at) {
+        ElementForces out{Q_, none_, wrenches};
+        element_.evaluate(at, out);
+    }
+    void differentiate(const StateView& at) {
+        ElementJacobian out{by_q, by_qd, columns_, columns_, columns_, rows_, rows_, nothing_, nothing_, nothing_};
+        element_.jacobian(at, out);
+    }
+
+private:
+    const ForceElement& element_;
+
+public:
+    Matrix by_q, by_qd;
+    std::vector<Wrench> wrenches;
+
+private:
+    Vector Q_, none_;
+    Matrix columns_, rows_, nothing_;
+};
+
 /// Derivatives of a field without states against central differences.
 /// @return dQ/dq, that of the field
 /// @param noise_q, noise_qd  of the forces that are differenced, over the step and their largest derivative
-inline Matrix checked_derivatives(const turbines::Turbine& machine, const WrenchField& field, const MachineState& state,
-                                  double noise_q, double noise_qd) {
+inline Matrix checked_derivatives(const turbines::Turbine& machine, const ForceElement& field,
+                                  const MachineState& state, double noise_q, double noise_qd) {
     const Eigen::Index n = state.q.size();
-    Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n), expected_q(n, n), expected_qd(n, n);
-    field.jacobian(FieldState(machine, state).input(), by_q, by_qd);
+    Matrix expected_q(n, n), expected_qd(n, n);
+    ElementAnswers own(field, n);
+    own.differentiate(FieldState(machine, state).input());
+    const Matrix &by_q = own.by_q, &by_qd = own.by_qd;
     const double h = 1e-6;
     for (Eigen::Index a = 0; a < n; ++a) {
         const auto moved = [&](double dq, double dqd) {

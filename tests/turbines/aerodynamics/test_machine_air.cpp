@@ -74,9 +74,9 @@ TEST_CASE("air on a machine: a rotor that is not bent feels what a rigid one doe
                 CHECK(mine.induction.axial == Approx(rigid.induction.axial).epsilon(1e-8));
                 CHECK(mine.force.normal == Approx(rigid.force.normal).epsilon(1e-8));
             }
-        CHECK(own.work_rate == Approx(generalised_forces(machine, air.field(), state).dot(state.qd)).epsilon(1e-9));
+        CHECK(own.work_rate == Approx(generalised_forces(machine, air.element(), state).dot(state.qd)).epsilon(1e-9));
         // The channels of loads know of it: without masses in motion the blade's root carries the air alone.
-        const Vector Q = generalised_forces(machine, air.field(), state);
+        const Vector Q = generalised_forces(machine, air.element(), state);
         CHECK(Q(machine.rotor().spin) == Approx(expected.moment.x()).epsilon(1e-9));
     }
 }
@@ -125,7 +125,7 @@ TEST_CASE("air on a machine: derivatives are those of the forces", "[property]")
         RotorAirOptions air_options;
         air_options.skew = skew;
         const MachineAir air(machine, blade, slanted, air_options);
-        const Matrix by_q = checked_derivatives(machine, air.field(), shaken(machine, 5), 4e-9, 1e-9);
+        const Matrix by_q = checked_derivatives(machine, air.element(), shaken(machine, 5), 4e-9, 1e-9);
         // Without a skewed wake blades do not feel each other.
         const RotorMap& rotor = machine.rotor();
         CHECK((by_q(rotor.blades[0].back(), rotor.blades[1].back()) == 0) == (skew == Skew::none));
@@ -135,7 +135,7 @@ TEST_CASE("air on a machine: derivatives are those of the forces", "[property]")
         for (const SteadyWind& wind : {slanted, behind})
             for (const double speed : {-1.1, 0.0, 0.25, -0.25}) {
                 CAPTURE(wind.direction, speed);
-                checked_derivatives(machine, air.in(wind).field(), shaken(machine, 6, speed), 1e-8, 1e-8);
+                checked_derivatives(machine, air.in(wind).element(), shaken(machine, 6, speed), 1e-8, 1e-8);
             }
     }
 }
@@ -146,31 +146,29 @@ TEST_CASE("air on a machine: a wind over time is at every instant a steady one",
     calm.speed = 7;
     calm.direction = 0;
     const MachineAir air(machine, nrel5mw_aero_blade(), Wind({1, 3, 5}, {calm, slanted, slanted}));
-    CHECK(air.field().breaks == std::vector<double>{1, 3, 5});
+    CHECK(air.element().breaks == std::vector<double>{1, 3, 5});
     CHECK(air.on(machine).system().forces.breaks() == std::vector<double>{1, 3, 5});
     MachineState state = shaken(machine, 3);
     for (const double time : {0.0, 1.5, 2.5, 4.0}) {
         state.time = time;
         const MachineAir steady = air.in(air.wind().at(time));
         CHECK(steady.wind().is_steady());
-        CHECK(generalised_forces(machine, air.field(), state)
-                  .isApprox(generalised_forces(machine, steady.field(), state), 1e-14));
+        CHECK(generalised_forces(machine, air.element(), state)
+                  .isApprox(generalised_forces(machine, steady.element(), state), 1e-14));
     }
 }
 
 TEST_CASE("air on a machine: evaluations allocate nothing", "[memory]") {
     const Turbine machine = nrel5mw(Nrel5mwVariant::report, 4, 2);
     const MachineAir air(machine, nrel5mw_aero_blade(), slanted);
-    const WrenchField field = air.field();
+    const ForceElement field = air.element();
     const FieldState at(machine, shaken(machine, 2));
     const StateView input = at.input();
-    const Eigen::Index n = input.q.size();
-    std::vector<Wrench> wrenches(field.points.size());
-    Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n);
-    field.wrenches(input, wrenches);
-    field.jacobian(input, by_q, by_qd);
-    CHECK(allocations([&] { field.wrenches(input, wrenches); }) == 0);
-    CHECK(allocations([&] { field.jacobian(input, by_q, by_qd); }) == 0);
+    ElementAnswers own(field, input.q.size());
+    own.evaluate(input);
+    own.differentiate(input);
+    CHECK(allocations([&] { own.evaluate(input); }) == 0);
+    CHECK(allocations([&] { own.differentiate(input); }) == 0);
 }
 
 TEST_CASE("air on a machine: the deflection of a blade converges with the square of the elements' length",

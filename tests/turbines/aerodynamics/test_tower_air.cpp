@@ -20,12 +20,12 @@ const SteadyWind oblique{.speed = 11, .direction = 0.3, .upflow = 0.1};
 const AeroNacelle box{.area = {30, 50, 40}, .drag = {1.1, 1.2, 0.9}, .centre = {1.5, 0.2, 1.8}};
 
 // Force, and moment about the ground's origin.
-Wrench sum_of(const WrenchField& field, const StateView& at) {
-    std::vector<Wrench> all(field.points.size());
-    field.wrenches(at, all);
+Wrench sum_of(const ForceElement& field, const StateView& at) {
+    ElementAnswers own(field, at.q.size());
+    own.evaluate(at);
     Wrench sum;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        add_moved(sum, all[i], place_of(at.kinematics, field.points[i]), Vec3::Zero());
+    for (std::size_t i = 0; i < own.wrenches.size(); ++i)
+        add_moved(sum, own.wrenches[i], place_of(at.kinematics, field.points[i]), Vec3::Zero());
     return sum;
 }
 
@@ -40,7 +40,7 @@ double up_to_top(double from, const F& f) {
 TEST_CASE("air on a tower: force and moment are the integrals by hand", "[analytic]") {
     for (const Stand stand : {Stand::elastic, Stand::rigid, Stand::platform}) {
         const Turbine machine = machine_on(stand);
-        const WrenchField field = TowerAir(machine, {.tower = table(1)}, oblique).field();
+        const ForceElement field = TowerAir(machine, {.tower = table(1)}, oblique).element();
         CHECK(field.name == "air on the tower");
         const Wrench sum = sum_of(field, FieldState(machine, MachineState(machine)).input());
         // Across the tower, which stands upright, the wind is level.
@@ -58,7 +58,7 @@ TEST_CASE("air on a tower: loads of its base by equilibrium", "[crosscheck]") {
     const Turbine machine = machine_on(Stand::elastic);
     const TowerAir air(machine, {.tower = table(3), .nacelle = box}, SteadyWind{.speed = 9});
     ForceSet forces = machine.forces();
-    forces.add_field(air.field());
+    forces.add_element(air.element());
     const Turbine windy = machine.with_forces(forces);
     MachineState state(machine);
     state.qdd.setZero();
@@ -86,8 +86,8 @@ TEST_CASE("air on a tower: loads of its base by equilibrium", "[crosscheck]") {
 TEST_CASE("air on a tower: work does not depend on how a load that is linear is cut", "[property]") {
     const Turbine machine = machine_on(Stand::elastic);
     const MachineState state(machine);
-    const Vector coarse = generalised_forces(machine, TowerAir(machine, {.tower = table(1)}, oblique).field(), state),
-                 fine = generalised_forces(machine, TowerAir(machine, {.tower = table(37)}, oblique).field(), state);
+    const Vector coarse = generalised_forces(machine, TowerAir(machine, {.tower = table(1)}, oblique).element(), state),
+                 fine = generalised_forces(machine, TowerAir(machine, {.tower = table(37)}, oblique).element(), state);
     CHECK((coarse - fine).norm() < 1e-12 * coarse.norm());
 }
 
@@ -101,8 +101,8 @@ TEST_CASE("air on a tower: in a wind that changes with height, second order in t
     });
     std::vector<double> errors;
     for (const int intervals : {4, 8, 16}) {
-        const WrenchField field =
-            TowerAir(machine, {.tower = table(intervals, TowerInfluence::none, lowest)}, sheared).field();
+        const ForceElement field =
+            TowerAir(machine, {.tower = table(intervals, TowerInfluence::none, lowest)}, sheared).element();
         const Wrench sum = sum_of(field, FieldState(machine, MachineState(machine)).input());
         errors.push_back(std::abs(sum.force.x() - exact));
     }
@@ -147,7 +147,7 @@ TEST_CASE("air on a tower: derivatives are those of the forces", "[property]") {
             const TowerAir air(machine, {.tower = tower, .nacelle = box}, twisted);
             CAPTURE(static_cast<int>(stand), loads);
             // Rounding of the forces, 1e-16 of them over the step.
-            checked_derivatives(machine, air.field(), passing(machine, 4), 1e-9, 1e-9);
+            checked_derivatives(machine, air.element(), passing(machine, 4), 1e-9, 1e-9);
         }
     }
 }
@@ -158,14 +158,12 @@ TEST_CASE("air on a tower: evaluations allocate nothing", "[memory]") {
                          {.tower = with_shadow(table(6, TowerInfluence::bak), TowerShadow::eames), .nacelle = box});
     const FieldState at(machine, passing(machine, 2));
     const StateView input = at.input();
-    const Eigen::Index n = input.q.size();
-    Matrix by_q = Matrix::Zero(n, n), by_qd = Matrix::Zero(n, n);
-    for (const WrenchField& field : {air.field(), air.support().field()}) {
-        std::vector<Wrench> wrenches(field.points.size());
-        field.wrenches(input, wrenches);
-        field.jacobian(input, by_q, by_qd);
-        CHECK(allocations([&] { field.wrenches(input, wrenches); }) == 0);
-        CHECK(allocations([&] { field.jacobian(input, by_q, by_qd); }) == 0);
+    for (const ForceElement& field : {air.element(), air.support().element()}) {
+        ElementAnswers own(field, input.q.size());
+        own.evaluate(input);
+        own.differentiate(input);
+        CHECK(allocations([&] { own.evaluate(input); }) == 0);
+        CHECK(allocations([&] { own.differentiate(input); }) == 0);
     }
 }
 

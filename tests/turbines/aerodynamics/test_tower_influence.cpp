@@ -256,7 +256,7 @@ TEST_CASE("tower influence on a machine: derivatives are those of the forces", "
                 CAPTURE(static_cast<int>(stand), static_cast<int>(influence), static_cast<int>(skew));
                 // 4e-9: roots of the balance are good to 1e-13 rad, but where the air comes along the plane of the
                 // rotor (phi = -0.003 in one section with seed 6: 8e-12), which this state has nowhere.
-                checked_derivatives(machine, air.field(), passing(machine, 7), 4e-9, 4e-9);
+                checked_derivatives(machine, air.element(), passing(machine, 7), 4e-9, 4e-9);
             }
     }
 }
@@ -273,11 +273,11 @@ TEST_CASE("tower shadow on a machine: derivatives are those of the forces", "[pr
                 // With seed 7 one section of one of these machines is 1e-7 rad from a kink of its polar.
                 const MachineState state = passing(machine, 9);
                 CAPTURE(static_cast<int>(stand), static_cast<int>(influence), static_cast<int>(shadow));
-                checked_derivatives(machine, air.field(), state, 4e-9, 4e-9);
+                checked_derivatives(machine, air.element(), state, 4e-9, 4e-9);
                 tower.shadow = TowerShadow::none;
-                const Vector with = generalised_forces(machine, air.field(), state),
+                const Vector with = generalised_forces(machine, air.element(), state),
                              without = generalised_forces(
-                                 machine, MachineAir(machine, blade, twisted, {}, {.tower = tower}).field(), state);
+                                 machine, MachineAir(machine, blade, twisted, {}, {.tower = tower}).element(), state);
                 CHECK((with - without).norm() > 0.01 * without.norm());
             }
     }
@@ -296,8 +296,8 @@ TEST_CASE("tower influence on a machine: the wind in and next to the tower, and 
     const MachineAir before(machine, blade, twisted, {}, {.tower = table(1, TowerInfluence::potential)});
     CHECK(std::abs(before.sections(at.input())[0].back().V_x - outside[0].back().V_x) > 1e-3);
     CHECK(open.support().is_empty());
-    CHECK(open.on(machine).forces().fields().size() == 1);
-    CHECK(in_it.on(machine).forces().fields().size() == 2);
+    CHECK(open.on(machine).forces().elements().size() == 1);
+    CHECK(in_it.on(machine).forces().elements().size() == 2);
     AeroTower no_loads = wide;
     no_loads.loads = false;
     CHECK(MachineAir(machine, blade, twisted, {}, {.tower = no_loads}).support().is_empty());

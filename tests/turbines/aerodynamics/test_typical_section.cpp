@@ -47,7 +47,7 @@ public:
     // Valid until the next call.
     CampbellCase in(double wind) {
         ForceSet forces = forces_;
-        forces.add_field(air(wind));
+        forces.add_element(air(wind));
         system_.emplace(tree_, forces);
         map_.machine = "typical section";
         map_.parts = {{"", Tree::base(), {"", "plunge", ""}, {"", "", "pitch"}}};
@@ -57,11 +57,11 @@ public:
 private:
     static constexpr double lever = -(a + 0.5) * b;  // of the aerodynamic centre
 
-    WrenchField air(double wind) const {
-        WrenchField field{.name = "air", .points = {{.frame = centre_}}};
+    ForceElement air(double wind) const {
+        ForceElement field{.name = "air", .points = {{.frame = centre_}}};
         for (const char* name : {"fast wake", "slow wake", "lagging lift", "separation"})
             field.states.push_back({.name = name, .unit = "1", .scale = 0.1});
-        field.evaluate = [this, wind](const FieldInput& at, std::span<Wrench> out, VectorOut rates) {
+        field.evaluate = [this, wind](const ElementView& at, ElementForces& out) {
             const double angle = at.q(pitch_), rate = at.qd(pitch_);
             const Vec3 along(std::cos(angle), std::sin(angle), 0);
             const Vec3 relative = Vec3(wind, -at.qd(plunge_), 0) - rate * lever * Vec3(-along.y(), along.x(), 0);
@@ -69,12 +69,12 @@ private:
             const SectionMotion motion{.V_x = relative.x(), .V_y = relative.y(), .rate = rate, .wake = {}};
             const SectionLags lags{.profile = &profile_};
             SectionStates states = SectionStates::Zero();
-            states.head<UnsteadyProfile::states>() = at.own;
+            states.head<UnsteadyProfile::states>() = at.s;
             RotorAirOptions options;
             options.induction = false;
             const LaggingAir air = lagging_air(annulus, motion, states, options, density, lags);
-            out[0] = {Vec3(air.air.force.normal, -air.air.force.driving, 0), Vec3(0, 0, air.air.force.moment)};
-            rates = air.rates.head<UnsteadyProfile::states>();
+            out.wrenches[0] = {Vec3(air.air.force.normal, -air.air.force.driving, 0), Vec3(0, 0, air.air.force.moment)};
+            out.f = air.rates.head<UnsteadyProfile::states>();
         };
         return field;
     }

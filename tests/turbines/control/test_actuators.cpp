@@ -197,7 +197,7 @@ TEST_CASE("actuators: the modes of the closed loop are the eigenvalues of its de
         {layout.gear_ratio * speed, pitch});
     ForceSet forces =
         ActuatedForces(turbine, two_hertz).with_demands({{loop.pitch}, loop.torque}, torque / layout.gear_ratio);
-    for (const ControlBlock* block : {&loop.filter, &loop.integral}) forces.add_states(block->element);
+    for (const ControlBlock* block : {&loop.filter, &loop.integral}) forces.add_element(block->element);
     const Turbine closed = loaded(turbine, forces);
     DynamicState at = steady(turbine);
     at.s = closed.system().forces.states().initial();

@@ -147,16 +147,15 @@ Vector deviation(const LinearModel& model, const DynamicState& state) {
 }
 
 // A generator torque in excess of the steady one.
-UserForce generator_torque(std::function<double(double time, double speed)> torque) {
-    UserForce force;
-    force.name = "generator torque";
-    force.force = [=](const StateView& in, VectorOut Q) {
-        Q(spin()) -= gear() * torque(in.time, gear() * in.qd(spin()));
+ForceElement generator_torque(std::function<double(double time, double speed)> torque) {
+    ForceElement force{.name = "generator torque", .coordinates = {*machine().layout().generator}};
+    force.evaluate = [=](const ElementView& in, ElementForces& out) {
+        out.Q(0) = -gear() * torque(in.time, gear() * in.qd(0));
     };
-    force.jacobian = [=](const StateView& in, MatrixOut, MatrixOut by_rate) {
-        const double speed = gear() * in.qd(spin()), h = 1;
-        by_rate(spin(), spin()) -=
-            gear() * gear() * (torque(in.time, speed + h) - torque(in.time, speed - h)) / (2 * h);  // linear laws
+    force.jacobian = [=](const ElementView& in, ElementJacobian& d) {
+        const double speed = gear() * in.qd(0), h = 1;
+        d.Q_qd(0, 0) =
+            -gear() * gear() * (torque(in.time, speed + h) - torque(in.time, speed - h)) / (2 * h);  // linear laws
     };
     return force;
 }
@@ -295,7 +294,7 @@ TEST_CASE("linear model: transfer functions of the generator torque are the nonl
         const ComplexVector z = amplitude * pencil.partialPivLu().solve(ComplexVector(fixed.B.col(0).cast<Complex>()));
         const ComplexVector y = amplitude * fixed.transfer(s).col(0);
         ForceSet forces = machine().forces();
-        forces.add_user(generator_torque([=](double time, double) { return amplitude * std::sin(omega * time); }));
+        forces.add_element(generator_torque([=](double time, double) { return amplitude * std::sin(omega * time); }));
         const turbines::Turbine driven = machine().with_forces(forces);
         const Start start(model, z.imag());
         Integrator integrator(driven.system(), {}, 0, start.q, start.qd, accurate());
@@ -374,7 +373,7 @@ TEST_CASE(
         ComplexVector right, left;
         const Complex expected = nearest(closed(fixed, on ? gain : 0), on ? designed : torsion, &right, &left);
         ForceSet forces = machine().forces();
-        if (on) forces.add_user(generator_torque([=](double, double w) { return gain * (w - gear() * Omega); }));
+        if (on) forces.add_element(generator_torque([=](double, double w) { return gain * (w - gear() * Omega); }));
         const turbines::Turbine controlled = machine().with_forces(forces);
         const Vector z = right.real() * (3e-3 / right.cwiseAbs().maxCoeff());
         const Start start(model, z);

@@ -173,9 +173,12 @@ TEST_CASE("channels: a force on a nacelle that is fixed to a rigid tower comes d
         CHECK(known.vector("YawBrM", "p").norm() < 1e-9);
         CHECK((known.vector("TwrBsF", "t") - F).norm() < 1e-9);
         CHECK((known.vector("TwrBsM", "t") - arm.cross(F)).norm() < 1e-8);
-        if (!afloat) continue;  // the ground takes no external wrenches
-        const auto wind = [F](const StateView&) { return Wrench{F, Vec3::Zero()}; };
-        const Sampled given(bare.system(), channels(bare, {{nacelle, wind}}), MachineState(bare));
+        ForceSet elements = bare.forces();
+        elements.add_element({.name = "wind",
+                              .points = {{nacelle}},
+                              .evaluate = [F](const ElementView&, ElementForces& out) { out.wrenches[0].force = F; }});
+        const Turbine pushed = bare.with_forces(elements);
+        const Sampled given(pushed, MachineState(pushed));
         for (const char* end : {"TwrBsMxt", "TwrBsMyt", "YawBrFxp", "TwrBsFzt"})
             CHECK(given[end] == Approx(known[end]).margin(1e-9));
     }
@@ -208,7 +211,7 @@ TEST_CASE("channels: in any motion the loads along the axes of joints are the fo
     }
 }
 
-TEST_CASE("channels: an external wrench counts as one of the force set does", "[property]") {
+TEST_CASE("channels: the load of a rotor counts as a wrench of the force set does", "[property]") {
     const Wt600Operation machine = wt600_operation({.assembly = heavy()});
     const Turbine bare = assemble(wt600_description(), heavy());
     const MachineState state = in_motion(machine.turbine, 4);
@@ -345,23 +348,13 @@ TEST_CASE("channels: names and aliases are unique and complete, and a recorder g
     for (const Channel& channel : recorder.channels()) CHECK(channel.alias != "TwrBsMxt");
 }
 
-TEST_CASE("channels: an external wrench without a function or on the base is refused", "[property]") {
-    const Turbine turbine = wt600(wt600_paper_assembly());
-    check_refused([&] { (void)channels(turbine, {{turbine.layout().hub, {}}}); }, {"external wrench", "function"});
-    check_refused(
-        [&] {
-            (void)channels(turbine, {{Tree::base(), [](const StateView&) { return Wrench{}; }}});
-        },
-        {"external wrench on the frame", "a frame of a body"});
-}
-
 TEST_CASE("channels: each says along or about which axes it is, unless it has no direction", "[property]") {
     const Turbine turbine = wt600({.tower_elements = 1, .blade_elements = 1});
     const auto nowhere = [](const std::string& units) {
         return units == "J" || units == "W" || units == "1" || units == "s";
     };
     std::size_t count = 0;
-    for (const ChannelGroup& group : channels(turbine, {}))
+    for (const ChannelGroup& group : channels(turbine))
         for (const Channel& channel : group.channels) {
             INFO(channel.name);
             CHECK(channel.frame.empty() == nowhere(channel.units));

@@ -32,17 +32,14 @@ double& at(const Turbine& turbine, Vector& v, const std::string& coordinate) {
     return v(turbine.system().model.index(coordinate));
 }
 
-std::vector<ChannelGroup> both(const Turbine& turbine, const Stations& stations,
-                               const std::vector<ExternalWrench>& external = {}) {
-    std::vector<ChannelGroup> groups = channels(turbine, external);
-    for (ChannelGroup& group : turbines::station_channels(turbine, stations, external))
-        groups.push_back(std::move(group));
+std::vector<ChannelGroup> both(const Turbine& turbine, const Stations& stations) {
+    std::vector<ChannelGroup> groups = channels(turbine);
+    for (ChannelGroup& group : turbines::station_channels(turbine, stations)) groups.push_back(std::move(group));
     return groups;
 }
 
-Sampled sampled(const Turbine& turbine, const Stations& stations, const MachineState& state,
-                const std::vector<ExternalWrench>& external = {}) {
-    return {turbine.system(), both(turbine, stations, external), state};
+Sampled sampled(const Turbine& turbine, const Stations& stations, const MachineState& state) {
+    return {turbine.system(), both(turbine, stations), state};
 }
 
 // x, y of a blade's axes in those of the section, which its twist turns: leading edge upwind, that is about minus z.
@@ -259,7 +256,8 @@ TEST_CASE("stations: accelerations are the second derivatives of positions in mo
     }
 }
 
-TEST_CASE("stations: an external wrench counts inboard of where it acts, as one of the force set does", "[property]") {
+TEST_CASE("stations: an element counts inboard of the point where it acts, as a wrench of the force set does",
+          "[property]") {
     const Turbine bare = wt600(heavy());
     const CardanBeam& blade = bare.layout().blades[0];
     const MachineState state = in_motion(bare, 3);
@@ -271,9 +269,13 @@ TEST_CASE("stations: an external wrench counts inboard of where it acts, as one 
     for (const FrameId frame : frames) {
         ForceSet forces = bare.forces();
         forces.add_wrench({"load", frame, load, WrenchAxes::base});
+        ForceSet elements = bare.forces();
+        elements.add_element({.name = "load",
+                              .points = {{frame}},
+                              .evaluate = [&](const ElementView&, ElementForces& out) { out.wrenches[0] = load; }});
         const Stations stations{.blades = places, .tower = {0, 15, 34}};
         const Sampled known = sampled(bare.with_forces(forces), stations, state),
-                      given = sampled(bare, stations, state, {{frame, [&](const StateView&) { return load; }}}),
+                      given = sampled(bare.with_forces(elements), stations, state),
                       without = sampled(bare, stations, state);
         CAPTURE(bare.tree().frames()[static_cast<std::size_t>(frame.index)].name);
         CHECK(std::abs(known["TwHt1MLxt"] - without["TwHt1MLxt"]) > 1e3);
@@ -344,11 +346,6 @@ TEST_CASE("stations: those that a machine does not have are refused", "[property
     unequal.own_blades[2]->line =
         uniform_beam(15, {.mass = 100, .GJ = 1e7, .EI_flap = 1e8, .EI_edge = 1e8, .j_flap = 1, .j_edge = 1});
     refused(assemble(unequal, wt600_paper_assembly()), {.blades = {17}}, {"stations of blade 2", "17", "0 ... 15"});
-    check_refused(
-        [&] {
-            (void)turbines::station_channels(turbine, {}, {{turbine.layout().hub, {}}});
-        },
-        {"external wrench", "function"});
 }
 
 }  // namespace cardan::testing::station_channels_tests

@@ -179,7 +179,7 @@ TEST_CASE("aeroelastic models: thrust over the wind of a rotor that does not ben
         const Forces& forces = windy.system().forces;
         const auto thrust = [&](double more) {
             state.u = Vector::Constant(1, more);
-            return air.rotor(air.input({state, kin}, forces)).force.x();
+            return air.rotor(air.values({state, kin}, forces).view()).force.x();
         };
         CAPTURE(row.at.wind, static_cast<int>(row.wake));
         const double slope = (thrust(0.01) - thrust(-0.01)) / 0.02;

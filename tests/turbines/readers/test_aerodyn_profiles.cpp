@@ -57,7 +57,7 @@ IeaState iea_state(const Turbine& machine, const MachineAir& air, double speed) 
     Workspace workspace(model);
     const Kinematics kin = kinematics(model, found.at.q, workspace);
     const StateView at(found.at, kin);
-    const MachineAir::Rotor rotor = air.rotor(air.input(at, windy.system().forces));
+    const MachineAir::Rotor rotor = air.rotor(air.values(at, windy.system().forces).view());
     const CardanBeam& blade = windy.layout().blades[0];
     const Pose<double> root = pose(kin, windy.layout().blade_roots[0]), tip = pose(kin, blade.tip());
     const Mat3 turned = root.R.transpose() * tip.R * blade.line.pose(blade.line.length).R.transpose();

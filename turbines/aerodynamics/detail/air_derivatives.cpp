@@ -36,16 +36,14 @@ struct SectionTurn {
 
 class AirDerivatives {
 public:
-    /// @param states  of the states, if there are any
-    AirDerivatives(const AirEvaluation& air, const MatrixOut& by_q, const MatrixOut& by_qd,
-                   FieldJacobian* states = nullptr)
+    AirDerivatives(const AirEvaluation& air, ElementJacobian& out)
         : air_(air),
           parts_(air.parts_),
-          by_q_(by_q),
-          by_qd_(by_qd),
-          states_(states),
+          by_q_(out.Q_q),
+          by_qd_(out.Q_qd),
+          states_(parts_.lags ? &out : nullptr),
           memory_(air.scratch_.derivatives) {
-        const Eigen::Index n = by_q.rows();
+        const Eigen::Index n = out.Q_q.rows();
         for (Columns6* sum : {&memory_.blade_q, &memory_.blade_qd, &memory_.trunk_q, &memory_.trunk_qd})
             sum->setZero(6, n);
         memory_.by_q.resize(parts_.profile->sections());
@@ -393,16 +391,12 @@ private:
     const AirEvaluation& air_;
     const AirParts& parts_;
     MatrixOut by_q_, by_qd_;
-    FieldJacobian* states_;
+    ElementJacobian* states_;
     AirDerivativeScratch& memory_;
 };
 
-void AirEvaluation::add_derivatives(const MatrixOut& by_q, const MatrixOut& by_qd) {
-    AirDerivatives(*this, by_q, by_qd).add();
-}
-
-void AirEvaluation::add_derivatives(FieldJacobian& out) {
-    AirDerivatives(*this, out.Q_q, out.Q_qd, &out).add();
+void AirEvaluation::add_derivatives(ElementJacobian& out) {
+    AirDerivatives(*this, out).add();
 }
 
 }  // namespace cardan::turbines

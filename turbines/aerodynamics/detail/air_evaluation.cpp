@@ -45,14 +45,14 @@ CARDAN_VECTORISED void place_blade(std::size_t count, const AirSection* __restri
 
 }  // namespace
 
-AirEvaluation::AirEvaluation(const AirParts& parts, const FieldInput& at, AirScratch& scratch)
+AirEvaluation::AirEvaluation(const AirParts& parts, const ElementView& at, AirScratch& scratch)
     : parts_(parts),
-      kin_(at.kinematics),
-      states_(at.own),
+      kin_(at.system.kinematics),
+      states_(at.s),
       scratch_(scratch),
-      motion_(at, parts.bodies, scratch.rates),
+      motion_(at.system, parts.bodies, scratch.rates),
       wind_(parts.wind.at(at.time)) {
-    if (!at.own_inputs.empty()) wind_.speed += at.u(at.own_inputs.front());
+    if (at.u.size() > 0) wind_.speed += at.u(0);
     shaft_ = motion_.rotation(parts.hub_body) * parts.hub_axis;
     hub_ = motion_.place(parts.hub_body, parts.hub_place);
     place_sections();

@@ -88,7 +88,7 @@ struct MeanWind {
 
 class AirEvaluation {
 public:
-    AirEvaluation(const AirParts& parts, const FieldInput& at, AirScratch& scratch);
+    AirEvaluation(const AirParts& parts, const ElementView& at, AirScratch& scratch);
 
     std::span<const SectionState> sections(std::size_t blade) const {
         const std::size_t count = parts_.profile->sections();
@@ -107,10 +107,8 @@ public:
     double density() const { return wind_.density; }
     void rates(VectorOut out) const;  ///< of the states
     void steady_states(VectorOut out) const;
-    /// Adds dQ/dq and dQ/dqd.
-    void add_derivatives(const MatrixOut& by_q, const MatrixOut& by_qd);
-    /// Adds those by and of the states as well.
-    void add_derivatives(FieldJacobian& out);
+    /// Adds those by motion and states.
+    void add_derivatives(ElementJacobian& out);
 
 private:
     void place_sections();
@@ -128,7 +126,7 @@ private:
     friend class AirDerivatives;
 
     const AirParts& parts_;
-    const Kinematics& kin_;
+    Kinematics kin_;
     Eigen::Ref<const Vector> states_;
     AirScratch& scratch_;
     BodyMotion motion_;

@@ -35,7 +35,7 @@ double arc_at(const BeamLine& line, double x, const std::string& where, const ch
 /// The segments move as rigid bodies: the forces do the work of the load per length, exactly.
 struct AirPoint {
     int body;
-    FieldPoint at;  ///< on a frame of the segment
+    FramePoint at;  ///< on a frame of the segment
     Vec3 place;     ///< the same in body axes, m
     double length;  ///< m
     std::size_t section;

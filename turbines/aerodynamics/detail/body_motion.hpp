@@ -57,7 +57,7 @@ public:
     const Model& model() const { return kin_.model(); }
 
 private:
-    const Kinematics& kin_;
+    Kinematics kin_;
     std::vector<BodyRate>& rates_;
 };
 

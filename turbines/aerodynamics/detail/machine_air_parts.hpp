@@ -11,7 +11,7 @@
 
 namespace cardan::turbines {
 
-inline constexpr const char* name_of_air = "air";  ///< MachineAir::field()
+inline constexpr const char* name_of_air = "air";  ///< MachineAir::element()
 
 struct MachineAir::Parts : AirParts {
     TowerAir support;
@@ -23,6 +23,6 @@ struct MachineAir::Parts : AirParts {
 
 /// Of the states of a lagging air, in their order.
 std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& blade_numbers);
-std::vector<FieldGroup> groups_of(const AirParts& parts, const std::vector<BodyId>& body_ids);
+std::vector<ElementGroup> groups_of(const AirParts& parts, const std::vector<BodyId>& body_ids);
 
 }  // namespace cardan::turbines

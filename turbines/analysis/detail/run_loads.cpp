@@ -28,7 +28,7 @@ Turbine with_generator(const Turbine& turbine, const GeneratorLoad& generator) {
         return CoordinateLaw{.force = -generator.ratio * at.torque,
                              .by_rate = -generator.ratio * generator.ratio * at.by_speed};
     };
-    forces.add_user(coordinate_force("generator", generator.shaft, law, false));
+    forces.add_element(coordinate_force("generator", generator.shaft, law, false));
     return turbine.with_forces(forces, text("generator: ", in_words(generator), ", on its own shaft"));
 }
 

@@ -9,20 +9,7 @@
 namespace cardan::turbines {
 
 /// What channels are sampled from.
-struct ChannelSource {
-    Turbine turbine;
-    std::vector<ExternalWrench> external;
-
-    const MachineLayout& layout() const { return turbine.layout(); }
-};
-
-using Shared = std::shared_ptr<const ChannelSource>;
-
-/// @throws InputError for an external wrench without a function or on the base
-Shared shared_source(const Turbine& turbine, std::vector<ExternalWrench> external);
-
-/// Adds what the external wrenches on the subtree of a body contribute at a point.
-void add_external(Wrench& sum, const ChannelSource& source, const DynamicView& in, int subtree, const Vec3& at);
+using Shared = std::shared_ptr<const Turbine>;
 
 /// Loads at the ends of a tower without coordinates. It shares a body (or the ground) with what carries it and with
 /// what is fixed to its top, so they follow from the joints on that body and the parts that were welded to it.
@@ -30,11 +17,11 @@ class RigidTower {
 public:
     explicit RigidTower(const Turbine& turbine);
     /// On the tower at its top, or on what carries it at its foot; base axes, about the frame's origin.
-    Wrench top_load(const ChannelSource& source, const DynamicView& in) const;
-    Wrench foot_load(const ChannelSource& source, const DynamicView& in) const;
+    Wrench top_load(const Turbine& source, const DynamicView& in) const;
+    Wrench foot_load(const Turbine& source, const DynamicView& in) const;
 
 private:
-    Wrench load_above(FrameId cut, const ChannelSource& source, const DynamicView& in) const;
+    Wrench load_above(FrameId cut, const Turbine& source, const DynamicView& in) const;
     void add_part(Wrench& sum, const RigidInertia& part, const DynamicView& in, const Vec3& at) const;
 
     FrameId carrier_;          // the body's own frame
