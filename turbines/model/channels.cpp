@@ -35,7 +35,7 @@ void add_loads(ChannelGroup& group, const std::string& where, const std::string&
     }
 }
 
-ChannelGroup rotor_channels(const Shared& source) {
+ChannelGroup rotor_channels(const Turbine& source) {
     ChannelGroup group;
     group.channels = {{.name = "rotor speed",
                        .units = "rad s-1",
@@ -47,7 +47,7 @@ ChannelGroup rotor_channels(const Shared& source) {
                        .long_name = "azimuth of blade 1, zero upward, 0 ... 2 pi",
                        .frame = "rotor axis",
                        .alias = "Azimuth"}};
-    const bool generator = source->layout().generator.has_value();
+    const bool generator = source.layout().generator.has_value();
     if (generator) {
         group.channels.push_back({.name = "generator speed",
                                   .units = "rad s-1",
@@ -62,7 +62,7 @@ ChannelGroup rotor_channels(const Shared& source) {
                                   .alias = "RotTorq"});
     }
     group.sample = [source, generator](const DynamicView& in, double* values) {
-        const MachineLayout& layout = source->layout();
+        const MachineLayout& layout = source.layout();
         const Kinematics& kin = in.kinematics;
         const Model& model = kin.model();
         const Pose<double> hub = pose(kin, layout.rotor_centre), shaft = pose(kin, layout.shaft);
@@ -84,7 +84,7 @@ ChannelGroup rotor_channels(const Shared& source) {
     return group;
 }
 
-ChannelGroup teeter_channels(const Shared& source) {
+ChannelGroup teeter_channels(const Turbine& source) {
     ChannelGroup group;
     group.channels = {{.name = "teeter angle",
                        .units = "rad",
@@ -92,13 +92,13 @@ ChannelGroup teeter_channels(const Shared& source) {
                        .frame = "teeter axis",
                        .alias = "RotTeetP"}};
     group.sample = [source](const DynamicView& in, double* values) {
-        *values = -in.q(in.kinematics.model().index(*source->layout().teeter));
+        *values = -in.q(in.kinematics.model().index(*source.layout().teeter));
     };
     return group;
 }
 
 // Displacement and angles from the pose, whatever the coordinates are along and about.
-ChannelGroup platform_channels(const Shared& source) {
+ChannelGroup platform_channels(const Turbine& source) {
     ChannelGroup group;
     const auto add = [&](const char* name, const char* units, const char* long_name, const char* alias) {
         group.channels.push_back({.name = name,
@@ -116,7 +116,7 @@ ChannelGroup platform_channels(const Shared& source) {
         "PtfmPitch");
     add("platform yaw angle", "rad", "yaw of the platform, positive seen from above counterclockwise", "PtfmYaw");
     group.sample = [source](const DynamicView& in, double* values) {
-        const Pose<double> now = pose(in.kinematics, source->layout().platform->frame);
+        const Pose<double> now = pose(in.kinematics, source.layout().platform->frame);
         write(now.p, values);
         *values++ = std::atan2(now.R(2, 1), now.R(2, 2));
         *values++ = std::atan2(-now.R(2, 0), std::hypot(now.R(2, 1), now.R(2, 2)));
@@ -125,7 +125,7 @@ ChannelGroup platform_channels(const Shared& source) {
     return group;
 }
 
-ChannelGroup tower_motion_channels(const Shared& source) {
+ChannelGroup tower_motion_channels(const Turbine& source) {
     ChannelGroup group;
     const auto add = [&](const char* name, const char* units, const char* long_name, const char* frame,
                          const char* alias) {
@@ -146,7 +146,7 @@ ChannelGroup tower_motion_channels(const Shared& source) {
         "YawBrTAxp");
     add("tower top side-side acceleration", "m s-2", "acceleration of the tower top along its own y", "tower top",
         "YawBrTAyp");
-    const bool yaw = source->layout().yaw.has_value();
+    const bool yaw = source.layout().yaw.has_value();
     if (yaw)
         group.channels.push_back({.name = "nacelle yaw",
                                   .units = "rad",
@@ -155,7 +155,7 @@ ChannelGroup tower_motion_channels(const Shared& source) {
                                   .frame = "yaw axis",
                                   .alias = "NacYaw"});
     group.sample = [source, yaw](const DynamicView& in, double* values) {
-        const MachineLayout& layout = source->layout();
+        const MachineLayout& layout = source.layout();
         const Kinematics& kin = in.kinematics;
         const Pose<double> foot = pose(kin, layout.tower_foot), top = pose(kin, layout.tower_top);
         const int body = kin.model().frame(layout.tower_top).body;
@@ -171,7 +171,7 @@ ChannelGroup tower_motion_channels(const Shared& source) {
     return group;
 }
 
-ChannelGroup tower_load_channels(const Shared& source) {
+ChannelGroup tower_load_channels(const Turbine& source) {
     ChannelGroup group;
     add_loads(group, "tower base", "tower base", "tower base", "TwrBsF", "TwrBsM", "t",
               {"fore-aft shear force", "side-side shear force", "axial force (tension positive)", "side-side moment",
@@ -179,13 +179,13 @@ ChannelGroup tower_load_channels(const Shared& source) {
     add_loads(group, "tower top", "tower top", "tower top", "YawBrF", "YawBrM", "p",
               {"fore-aft shear force", "side-side shear force", "axial force (tension positive)", "roll moment",
                "pitching moment", "yaw moment"});
-    const std::optional<RigidTower> rigid = source->layout().tower ? std::nullopt : std::optional<RigidTower>(*source);
+    const std::optional<RigidTower> rigid = source.layout().tower ? std::nullopt : std::optional<RigidTower>(source);
     group.sample = [source, rigid](const DynamicView& in, double* values) {
-        const std::optional<CardanBeam>& tower = source->layout().tower;
-        const Mat3 foot = foot_axes(pose(in.kinematics, source->layout().tower_foot).R),
-                   top = pose(in.kinematics, source->layout().tower_top).R;
-        const Wrench base_load = rigid ? rigid->foot_load(*source, in) : beam_load(in, *tower, false),
-                     top_load = rigid ? rigid->top_load(*source, in) : beam_load(in, *tower, true);
+        const std::optional<CardanBeam>& tower = source.layout().tower;
+        const Mat3 foot = foot_axes(pose(in.kinematics, source.layout().tower_foot).R),
+                   top = pose(in.kinematics, source.layout().tower_top).R;
+        const Wrench base_load = rigid ? rigid->foot_load(source, in) : beam_load(in, *tower, false),
+                     top_load = rigid ? rigid->top_load(source, in) : beam_load(in, *tower, true);
         write(foot.transpose() * base_load.force, values);
         write(foot.transpose() * base_load.moment, values);
         write(top.transpose() * top_load.force, values);
@@ -194,8 +194,8 @@ ChannelGroup tower_load_channels(const Shared& source) {
     return group;
 }
 
-ChannelGroup blade_motion_channels(const Shared& source, std::size_t k) {
-    const int place = source->layout().blade_numbers[k];
+ChannelGroup blade_motion_channels(const Turbine& source, std::size_t k) {
+    const int place = source.layout().blade_numbers[k];
     const std::string blade = text("blade ", place), number = place <= 3 ? text(place) : "";
     const auto alias = [&](const char* stem) { return number.empty() ? "" : stem + number; };
     ChannelGroup group;
@@ -217,7 +217,7 @@ ChannelGroup blade_motion_channels(const Shared& source, std::size_t k) {
                               .long_name = "turn of the tip about its span, after those about the root's other axes",
                               .frame = blade,
                               .point = blade + " tip"});
-    const bool pitch = !source->layout().pitch.empty();
+    const bool pitch = !source.layout().pitch.empty();
     if (pitch)
         group.channels.push_back({.name = blade + " pitch angle",
                                   .units = "rad",
@@ -226,7 +226,7 @@ ChannelGroup blade_motion_channels(const Shared& source, std::size_t k) {
                                   .point = blade + " root",
                                   .alias = alias("BldPitch")});
     group.sample = [source, k, pitch](const DynamicView& in, double* values) {
-        const MachineLayout& layout = source->layout();
+        const MachineLayout& layout = source.layout();
         const CardanBeam& beam = layout.blades[k];
         const Kinematics& kin = in.kinematics;
         const Pose<double> root = pose(kin, layout.blade_roots[k]);
@@ -244,8 +244,8 @@ ChannelGroup blade_motion_channels(const Shared& source, std::size_t k) {
     return group;
 }
 
-ChannelGroup blade_load_channels(const Shared& source, std::size_t k) {
-    const int place = source->layout().blade_numbers[k];
+ChannelGroup blade_load_channels(const Turbine& source, std::size_t k) {
+    const int place = source.layout().blade_numbers[k];
     const std::string blade = text("blade ", place), root = blade + " root";
     const auto suffix = [&](const char* axes) { return place <= 3 ? text(axes, place) : std::string(); };
     ChannelGroup group;
@@ -258,7 +258,7 @@ ChannelGroup blade_load_channels(const Shared& source, std::size_t k) {
                "out-of-plane moment", "pitching moment"});
     for (std::size_t i : {0u, 1u, 3u, 4u}) group.channels.push_back(coned.channels[i]);  // z is the same axis
     group.sample = [source, k](const DynamicView& in, double* values) {
-        const MachineLayout& layout = source->layout();
+        const MachineLayout& layout = source.layout();
         const CardanBeam& beam = layout.blades[k];
         const Wrench load = beam_load(in, beam, false);
         const Mat3 b = openfast_axes(pose(in.kinematics, layout.blade_roots[k]).R),
@@ -274,17 +274,16 @@ ChannelGroup blade_load_channels(const Shared& source, std::size_t k) {
 }  // namespace
 
 std::vector<ChannelGroup> channels(const Turbine& turbine) {
-    const Shared source = std::make_shared<const Turbine>(turbine);
-    std::vector<ChannelGroup> groups{rotor_channels(source)};
-    if (turbine.layout().teeter) groups.push_back(teeter_channels(source));
-    if (turbine.layout().platform) groups.push_back(platform_channels(source));
+    std::vector<ChannelGroup> groups{rotor_channels(turbine)};
+    if (turbine.layout().teeter) groups.push_back(teeter_channels(turbine));
+    if (turbine.layout().platform) groups.push_back(platform_channels(turbine));
     if (turbine.layout().tower_top != FrameId{}) {  // a blade alone has none
-        groups.push_back(tower_motion_channels(source));
-        groups.push_back(tower_load_channels(source));
+        groups.push_back(tower_motion_channels(turbine));
+        groups.push_back(tower_load_channels(turbine));
     }
     for (std::size_t k = 0; k < turbine.layout().blades.size(); ++k) {
-        groups.push_back(blade_motion_channels(source, k));
-        groups.push_back(blade_load_channels(source, k));
+        groups.push_back(blade_motion_channels(turbine, k));
+        groups.push_back(blade_load_channels(turbine, k));
     }
     return groups;
 }

@@ -4,12 +4,7 @@
 
 #include "turbines/model/channels.hpp"
 
-#include <memory>
-
 namespace cardan::turbines {
-
-/// What channels are sampled from.
-using Shared = std::shared_ptr<const Turbine>;
 
 /// Loads at the ends of a tower without coordinates. It shares a body (or the ground) with what carries it and with
 /// what is fixed to its top, so they follow from the joints on that body and the parts that were welded to it.
