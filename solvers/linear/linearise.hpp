@@ -60,8 +60,7 @@ public:
     explicit Lineariser(System&&, LoopState = LoopState::at_rest) = delete;  // the system must live longer
 
     /// @param out  overwritten; from the second call on with the same `out` nothing is allocated, unless a force
-    /// element
-    ///             allocates or is differenced.  Cost O(n^2).
+    ///             element allocates or is differenced.  Cost O(n^2).
     /// @throws InputError for vectors of the wrong size, and for values that are not finite, with the coordinate's
     /// name; for loops that are open or in motion where they may not be
     void linearise(const DynamicState& at, Linearisation& out);
