@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # tests/fuzz/run.sh [seconds] [target]...: runs the targets in build/sanitize, 60 s each, as many at a time as there are
-# processors (CARDAN_JOBS: another number). Seeds: those in tests/fuzz/seeds, the models of tests/data, and what earlier
-# runs found worth keeping (build/fuzz/corpus). A finding ends it: the input lies in build/fuzz/findings.
+# processors (CARDAN_JOBS: another number). With CARDAN_INPUTS=1000000 each ends after as many inputs instead.
+# Seeds: those in tests/fuzz/seeds, the models of tests/data, and what earlier runs found worth keeping
+# (build/fuzz/corpus). A finding ends it: the input lies in build/fuzz/findings.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -41,7 +42,7 @@ fuzz() { # <target>
         urdf) cp tests/fuzz/seeds/urdf/* examples/data/*.urdf "$seeds" ;;
         *) cp "tests/fuzz/seeds/$target/"* "$seeds" ;;
     esac
-    if ! nice -n 19 "build/sanitize/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 \
+    if ! nice -n 19 "build/sanitize/tests/fuzz/fuzz_$target" "$limit" -timeout=60 -rss_limit_mb=2048 \
         -max_len=16384 -artifact_prefix=build/fuzz/findings/ -print_final_stats=1 "$corpus" "$seeds" >"$log" 2>&1; then
         tail -40 "$log" >&2
         echo "fuzzing: $target has a finding, see build/fuzz/findings and $log" >&2
@@ -52,5 +53,6 @@ fuzz() { # <target>
 
 mkdir -p build/fuzz/findings
 export -f fuzz seeds_of_openfast seeds_of_aerodyn
-export seconds
+if [[ -n "${CARDAN_INPUTS:-}" ]]; then limit="-runs=$CARDAN_INPUTS"; else limit="-max_total_time=$seconds"; fi
+export limit
 printf '%s\n' "${targets[@]}" | xargs -P "${CARDAN_JOBS:-$(nproc)}" -I '{}' bash -euo pipefail -c 'fuzz {}'
