@@ -10,7 +10,7 @@
 
 namespace cardan {
 
-/// Of 0 ... count - 1, each a set of its own to begin with.
+/// Disjoint sets of the numbers 0 ... count - 1, each alone in its set to begin with.
 class DisjointSets {
 public:
     explicit DisjointSets(std::ptrdiff_t count) : parents_(static_cast<std::size_t>(count)) {

@@ -23,7 +23,7 @@ public:
     struct Value {
         double value, slope, second;  ///< in units of y, y/x, y/x^2
     };
-    /// How errors name the table and what x and y are.
+    /// Words by which errors name the table and what x and y are.
     struct Names {
         std::string_view table = "cubics through points", x = "point", y = "value";
         std::string_view x_unit = {}, y_unit = {};  ///< " [s]"

@@ -1,5 +1,4 @@
-/// @file
-/// What every result carries that a computation may fail to reach.
+/// @file Outcome of a computation that may fail to converge: every such result carries one.
 #pragma once
 
 #include "mbs/base/error.hpp"
@@ -15,12 +14,12 @@ struct Outcome {
     std::string message = {};  ///< why it did not converge and what to do, empty if it did
 };
 
-/// For those who cannot go on without the result.
+/// Throws unless the result converged, for callers who cannot go on without it.
 /// @throws NumericalError with the message unless it converged
 inline void require_result(const Outcome& outcome) {
     if (!outcome.converged) throw NumericalError(outcome.message);
 }
-/// Likewise: "<where>: <message>".
+/// Throws "<where>: <message>" unless the result converged.
 /// @param where  a text, or a function without arguments, so that the text is built only when needed
 template <class Where>
 void require_result(const Outcome& outcome, const Where& where) {

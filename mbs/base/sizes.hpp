@@ -26,7 +26,7 @@ void require_size(const char* where, const char* what, const Eigen::EigenBase<De
     if (A.rows() != rows || A.cols() != cols) [[unlikely]]
         refuse_size(where, what, A.rows(), A.cols(), rows, cols);
 }
-/// Likewise for anything else that is counted.
+/// Checks the number of anything that is counted.
 inline void require_count(const char* where, const char* what, std::size_t size, std::size_t right) {
     if (size != right) [[unlikely]]
         refuse_size(where, what, static_cast<Eigen::Index>(size), 1, static_cast<Eigen::Index>(right), 1);

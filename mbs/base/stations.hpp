@@ -8,7 +8,7 @@
 
 namespace cardan {
 
-/// Where a point lies among stations: between `left` and `right`, at the fraction t of the way.
+/// Place of a point among stations: between `left` and `right`, at the fraction t of the way.
 struct StationPlace {
     std::size_t left, right;
     double t;

@@ -54,7 +54,7 @@ struct ReadNumber {
 /// The whole word as a decimal number, with a point, an exponent and a sign, if any: "-.5", "+2e3".
 [[nodiscard]] ReadNumber read_number(std::string_view word);
 
-/// Of ASCII; no byte of another character is any of these.
+/// Whether a byte is a digit of ASCII; no byte of another character is any of these.
 [[nodiscard]] constexpr bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }

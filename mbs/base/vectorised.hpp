@@ -1,5 +1,4 @@
-/// @file
-/// How the kernels use the vector instructions of the processor without changing a flag of the build.
+/// @file Use of the processor's vector instructions by the kernels without changing a flag of the build.
 #pragma once
 
 /// A function that is compiled twice, for any processor and for those with AVX2 (GCC: and FMA, which clang 14 cannot

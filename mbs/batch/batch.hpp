@@ -36,7 +36,7 @@ public:
     /// the exception of the lowest index is rethrown. Nothing is allocated per state.
     /// @throws InputError if count is negative, or if a call of this Batch is still running
     void for_each(int count, const Call& call);
-    /// As above, but ends when a stop is requested, which is checked before every state.
+    /// Calls `call` for every state until a stop is requested, which is checked before each.
     /// @return true if all calls were made
     [[nodiscard]] bool for_each(int count, const Call& call, const std::stop_token& stop);
 

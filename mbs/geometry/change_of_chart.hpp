@@ -30,7 +30,7 @@ struct ChartState {
 ChartState change_of_chart(const Model& from, const ChartState& state, const Model& to,
                            const std::vector<std::string>& frames, const Vector& near = {});
 
-/// How far the coordinates are from being singular for the twist of a frame: smallest singular value of the frame's
+/// Distance of the coordinates from being singular for the twist of a frame: smallest singular value of the frame's
 /// Jacobian over these coordinates, with columns scaled to unit length. 1: orthogonal; 0: singular. sqrt(1 - |sin(b)|)
 /// for three revolute joints with one centre, if the outer axes are perpendicular where the middle joint's angle b is
 /// zero. Allocates.

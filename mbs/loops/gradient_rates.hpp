@@ -1,5 +1,4 @@
-/// @file
-/// How the gradients of loops change along a motion.
+/// @file Rates of the loops' gradients along a motion.
 #pragma once
 
 #include "mbs/loops/loops.hpp"
@@ -14,7 +13,7 @@ namespace cardan {
 /// own, which are known for real numbers only, by differences (relative 1e-9). One object per thread.
 class GradientRates {
 public:
-    /// Both must live as long as this.
+    /// Model and loops must live as long as this.
     GradientRates(const Model& model, const Loops& loops);
 
     /// @param first, second  out, equations x coordinates.  Cost O(n) evaluations of all equations.

@@ -54,8 +54,8 @@ struct Coupling {
     std::string unit = "rad";  ///< of the equation
 };
 
-/// What a lock does at present: the coordinate is held at position + rate (t - since) while it is engaged. Whoever
-/// engages it, such as an event of a time integration, shares this; one motion at a time.
+/// State of a lock: the coordinate is held at position + rate (t - since) while it is engaged. Whoever engages it, such
+/// as an event of a time integration, shares this; one motion at a time.
 struct LockState {
     bool engaged = false;
     double position = 0, rate = 0;  ///< rad, rad/s or m, m/s

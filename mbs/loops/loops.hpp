@@ -12,7 +12,7 @@
 
 namespace cardan {
 
-/// What a loop exerts: a force at a point of a body and a moment, base axes, N and N m.
+/// Load that a loop exerts: a force at a point of a body and a moment, base axes, N and N m.
 struct LoopLoad {
     int body;  ///< -1: base
     Vec3 point, force, moment;
@@ -52,7 +52,7 @@ public:
     const std::string& name(int loop) const;
     /// "'pin' (between 'rod' and 'base')"
     std::string describe(int loop) const;
-    /// Where a loop's equations begin; loops(): their number.
+    /// Index of a loop's first equation; of loops(): the number of equations.
     int first_of(int loop) const { return entry(first_, loop); }
     /// Locks come last.
     bool is_lock(int loop) const { return loop >= loops() - static_cast<int>(locks_.size()); }
@@ -80,9 +80,9 @@ public:
     /// phi_a.  @param G  out, size() x n
     template <class S>
     void gradient(const KinematicsT<S>& kin, double time, VectorInT<S> q, MatrixOutT<S> G) const;
-    /// With the magnitudes that its entries may have: what a gradient that vanishes at a singular position is measured
-    /// by. Those of joints, rods and surfaces have the longest lever of their loop, about whatever hinge; others, which
-    /// do not change with the position, or nobody knows how, have their own.
+    /// Gradients with the magnitudes that their entries may have: what a gradient that vanishes at a singular position
+    /// is measured by. Those of joints, rods and surfaces have the longest lever of their loop, about whatever hinge;
+    /// others, which do not change with the position, or nobody knows how, have their own.
     /// @param magnitudes  out, size() x n, >= |G|
     void gradient(const Kinematics& kin, double time, VectorIn q, MatrixOut G, MatrixOut magnitudes) const;
     /// phi_t, of those that change with time by themselves.  @param out  size()
@@ -96,16 +96,16 @@ public:
     /// Whether directions that have to agree point against each other, a second way to fulfil the same equations.
     /// @return the loop, -1: none
     int turned_over(const Kinematics& kin) const;
-    /// How much of phi counts as closed: a fraction of the size of what each equation compares, or as much as rounding
-    /// may leave. Of lengths, the size is the longest lever or stroke on the way from a to b, or the length of the rod;
-    /// of directions 1; of couplings, locks and constraints of one's own the sum of the entries of their gradients,
-    /// each times 1 rad, or the larger of stroke and extent of the tree.
+    /// Tolerance below which phi counts as closed: a fraction of the size of what each equation compares, or as much as
+    /// rounding may leave. Of lengths, the size is the longest lever or stroke on the way from a to b, or the length of
+    /// the rod; of directions 1; of couplings, locks and constraints of one's own the sum of the entries of their
+    /// gradients, each times 1 rad, or the larger of stroke and extent of the tree.
     /// @param fraction  > 0
     /// @param out       size(), > 0, in units of the equations
     void tolerances(const Kinematics& kin, double time, VectorIn q, double fraction, VectorOut out) const;
 
-    /// What a joint, rod or surface exerts on the bodies of b and a, from the multipliers of its equations; couplings
-    /// and user constraints have no place where they act and add nothing.
+    /// Adds the loads that a joint, rod or surface exerts on the bodies of b and a, from the multipliers of its
+    /// equations; couplings and user constraints have no place where they act and add nothing.
     /// @param out  added to
     void add_loads(const Kinematics& kin, VectorIn lambda, std::vector<LoopLoad>& out) const;
     /// Force and moment of a joint on the body of b, at the origin of b.

@@ -10,7 +10,8 @@
 
 namespace cardan {
 
-/// With axes c of a and e of b and the vector d from the origin of a to that of b.
+/// A measure of how two frames lie to one another, with axes c of a and e of b and the vector d from the origin of a to
+/// that of b.
 struct RelativeMeasure {
     enum class Kind : std::uint8_t {
         along,    ///< c . d, m
@@ -45,7 +46,7 @@ template <class S>
 struct UnitWrench {
     Vec3T<S> force = Vec3T<S>::Zero(), moment = Vec3T<S>::Zero();
 
-    /// Its generalised force for the twist of a coordinate at the origin of b.
+    /// Generalised force of the measure for the twist of a coordinate at the origin of b.
     S on(const PointTwist<S>& twist) const { return dot<S>(moment, twist.w) + dot<S>(force, twist.v); }
 };
 
@@ -78,7 +79,7 @@ UnitWrench<S> unit_wrench(const RelativeMeasure& measure, const FrameEnds<S>& en
     return {ends.d / length, Vec3T<S>::Zero()};
 }
 
-/// How b moves as seen from a: angular velocity and velocity of its origin, and the accelerations that the rates alone
+/// Motion of b as seen from a: angular velocity and velocity of its origin, and the accelerations that the rates alone
 /// cause. Base axes.
 template <class S>
 struct RelativeMotion {

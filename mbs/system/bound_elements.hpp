@@ -49,7 +49,7 @@ public:
     std::vector<Wrench> wrenches(int i, const StateView& at) const;
     /// Subtracts dQ/dq from `elastic` or `loads` and dQ/dqd from `damping`, n x n, and writes the rest.
     void derivatives(const StateView& at, Matrix& elastic, Matrix& loads, Matrix& damping, StateDerivatives& out) const;
-    /// Of one of them: generalised forces of all coordinates.
+    /// Generalised forces of one element on all coordinates.
     Vector forces(int i, const StateView& at) const;
     std::optional<double> potential(int i, const StateView& at) const;
     /// Sum over the elements that tell their balance, without load factors.
@@ -90,7 +90,7 @@ private:
     friend class ElementValues;
 };
 
-/// What one of the elements sees at a state: for channels and other functions outside of the evaluation.
+/// Values that one of the elements sees at a state: for channels and other functions outside of the evaluation.
 class ElementValues {
 public:
     /// @throws InputError without an element of this name

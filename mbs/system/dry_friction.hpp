@@ -10,13 +10,14 @@
 
 namespace cardan {
 
-/// It sticks while the lock is engaged.
+/// State of dry friction: it sticks while the lock is engaged.
 struct FrictionState : LockState {
     /// 1, -1: it slides forward or backward against the surface. 0: nobody watches, and the law is regularised.
     int direction = 0;
 };
 
-/// Of a coordinate against a surface that moves along it: add_dry_friction() makes it, stick_slip() watches it.
+/// Dry friction of a coordinate against a surface that moves along it: add_dry_friction() makes it, stick_slip()
+/// watches it.
 struct DryFriction {
     std::string name = {};
     BodyId coordinate = {};

@@ -32,13 +32,13 @@ struct FramePoint {
 /// Base axes, m.
 Vec3 place_of(const Kinematics& kin, const FramePoint& point);
 
-/// What a force element sees: the values of what it names, in its own order.
+/// View that a force element has of a state: the values of what it names, in its own order.
 struct ElementView {
     using Values = Eigen::Ref<const Vector>;
     ElementView(double now, const Values& position, const Values& rate, const Values& own, const Values& read,
                 const Values& given, const StateView& whole CARDAN_LIFETIME_BOUND)
         : time(now), q(position), qd(rate), s(own), others(read), u(given), system(whole) {}
-    /// Of an element with points, without states and inputs.
+    /// View of an element with points, without states and inputs.
     ElementView(const StateView& at CARDAN_LIFETIME_BOUND)  // NOLINT(google-explicit-constructor)
         : ElementView(at.time, at.q, at.qd, at.s.head(0), at.s.head(0), at.u.head(0), at) {}
 
@@ -50,7 +50,7 @@ struct ElementView {
     const StateView& system;  ///< the whole, with its kinematics: for elements with points only
 };
 
-/// What an element answers, all of it zero when it is asked.
+/// Answer of an element, all of it zero when it is asked.
 struct ElementForces {
     VectorOut Q;                 ///< generalised forces on its coordinates, in the order of ElementView::q
     VectorOut f;                 ///< ds/dt of its states
@@ -108,14 +108,14 @@ struct ForceElement {
     bool differences_by_inputs = false;
     /// Potential energy, J, if the forces have one; what else they do counts as work of loads.
     std::function<double(const ElementView&)> potential = {};
-    /// Its whole balance of energy, in the place of a potential. Empty: it has none beyond the work of Q.
+    /// Whole balance of energy of the element, in the place of a potential. Empty: it has none beyond the work of Q.
     std::function<ElementPower(const ElementView&)> power = {};
     /// A spring rather than a load: -dQ/dq counts as elastic stiffness, and load factors leave it as it is.
     bool elastic = false;
     /// Times, s, ascending, across which it is not smooth: integration restarts there.
     std::vector<double> breaks = {};
-    /// Of an element with points, where not all states depend on one another and on all coordinates: every state in one
-    /// of them.
+    /// Groups of the states of an element with points, where not all of them depend on one another and on all
+    /// coordinates: every state in one of them.
     std::vector<ElementGroup> groups = {};
 };
 

@@ -103,9 +103,9 @@ public:
     ///               force element does.
     /// @param rates  out, ds/dt of states(); overwritten
     void generalised_forces(const StateView& at, VectorOut Q, VectorOut rates) const;
-    /// Of a system without states.  @throws InputError if there are some
+    /// Generalised forces of a system without states.  @throws InputError if there are some
     void generalised_forces(const StateView& at, VectorOut Q) const;
-    /// Likewise without force elements, for any scalar (tests).
+    /// Generalised forces without force elements, for any scalar (tests).
     template <class S>
     void generalised_forces_of_laws(const KinematicsT<S>& kin, VectorInT<S> q, VectorInT<S> qd, VectorOutT<S> Q,
                                     double time = 0) const;
@@ -116,7 +116,7 @@ public:
 
     /// Potential energy of all that have one, J; that of elements which tell their whole balance apart, state_energy().
     double potential_energy(const StateView& at) const;
-    /// Of all but the elements that tell their whole balance.
+    /// Reports of all elements but those that report their whole balance of energy.
     std::vector<ForceReport> report(const StateView& at) const;
     /// Energy of the elements that tell their whole balance, without load factors.
     StateEnergy state_energy(const StateView& at) const;
@@ -149,7 +149,7 @@ public:
     /// of their states) and, if `gravity_too`, gravity. Springs and dampers stay. Factors of repeated calls multiply.
     /// @throws InputError if the factor is not finite.
     Forces with_load_factor(double factor, bool gravity_too) const;
-    /// With a load more.
+    /// A copy with one more load.
     /// @throws InputError for a frame that the model does not have
     Forces with_load(FrameLoad load, const Model& model) const;
 

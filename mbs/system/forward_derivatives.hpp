@@ -46,7 +46,7 @@ public:
     /// n x n, column b: by the prescribed acceleration of the driven coordinate b (1 in row b); other columns are zero.
     const Matrix& dqdd_dprescribed() const { return by_prescribed_; }
 
-    /// Likewise for the forces A that the drives add to Q (`actuator` of ForwardDynamics::solve()); rows of free
+    /// Derivatives of the forces A that the drives add to Q (`actuator` of ForwardDynamics::solve()); rows of free
     /// coordinates are zero.
     const Matrix& dactuator_dq() const { return actuator_by_q_; }
     const Matrix& dactuator_dqd() const { return actuator_by_qd_; }

@@ -13,7 +13,7 @@
 
 namespace cardan {
 
-/// How a state settles while everything else stands still.
+/// Way in which a state settles while everything else stands still.
 enum class StateKind : std::uint8_t {
     lag,         ///< to a value of its own: a current, a filter, an actuator
     integrator,  ///< it does not, and in a steady state its input vanishes: the integral part of a controller
@@ -61,7 +61,7 @@ public:
     int index(std::string_view name) const;
     /// -1: there is none of this name.
     int find(std::string_view name) const;
-    /// Their values at the start.
+    /// Values of the states at the start.
     Vector initial() const;
 
 private:

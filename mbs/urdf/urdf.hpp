@@ -28,7 +28,7 @@ struct UrdfMimic {
     double offset = 0;  ///< rad or m
 };
 
-/// What URDF says about a joint beyond what a Tree holds. An infinite limit means none.
+/// Data of a joint that URDF has and a Tree has not. An infinite limit means none.
 struct UrdfJoint {
     std::string coordinate = {};                                ///< name of the coordinate
     double lower = -std::numeric_limits<double>::infinity();    ///< rad or m
@@ -66,11 +66,11 @@ struct UrdfModel {
 /// @throws InputError if the tree has no such coordinate or a damping is negative
 [[nodiscard]] ForceSet joint_damping(const Tree& tree, const std::vector<UrdfJoint>& joints);
 
-/// What mimicking joints are held to, as couplings "<coordinate> mimics <joint>" for System's loops.
+/// Constraints of mimicking joints, as couplings "<coordinate> mimics <joint>" for System's loops.
 /// @throws InputError if the tree has no such coordinate, or a joint mimics itself
 [[nodiscard]] LoopSet mimic_couplings(const Tree& tree, const std::vector<UrdfJoint>& joints);
 
-/// What is written in addition to the tree.
+/// Data that are written in addition to the tree.
 struct UrdfExport {
     std::string robot_name = "cardan";
     std::vector<UrdfJoint> joints = {};  ///< for some or all coordinates; the others have no limits and no damping
@@ -83,7 +83,8 @@ struct UrdfExport {
 /// urdf_losses().
 /// @throws InputError if joint data name no coordinate or one twice, or are impossible; if a name cannot stand in XML
 [[nodiscard]] std::string to_urdf(const Tree& tree, const UrdfExport& with = {});
-/// What is lost in the conversion to URDF: armatures, roles and parts of coordinates, reduced inertias, missing limits.
+/// Data that are lost in the conversion to URDF: armatures, roles and parts of coordinates, reduced inertias, missing
+/// limits.
 [[nodiscard]] std::vector<std::string> urdf_losses(const Tree& tree, const UrdfExport& with = {});
 /// Writes to_urdf() to a file, which is called "<file>.partial" until it is complete.
 /// @throws FileError if it cannot be written, and what to_urdf() throws

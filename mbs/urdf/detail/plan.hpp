@@ -1,5 +1,4 @@
-/// @file
-/// Which links and joints a tree becomes in URDF.
+/// @file Links and joints that a tree becomes in URDF.
 #pragma once
 
 #include "mbs/urdf/urdf.hpp"
