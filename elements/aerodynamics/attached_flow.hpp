@@ -9,7 +9,7 @@
 
 namespace cardan {
 
-/// What is known of it from elsewhere.
+/// Data of an attached flow that are known from elsewhere.
 struct KnownFlow {
     std::optional<double> slope = {};              ///< of the lift, 1/rad
     std::optional<double> zero_lift = {};          ///< angle of attack without lift, rad
@@ -17,11 +17,10 @@ struct KnownFlow {
     std::optional<double> least_drag = {};         ///< drag coefficient
 };
 
-/// Of the first table of a polar, within 20 degrees of zero, as AeroDyn 5.0 finds what its files leave out [OpenFAST,
-/// modules/aerodyn/src/AirfoilInfo.f90; its manual, "Calculating Default Airfoil Coefficients", describes an older way
-/// to the slope]:
-///  - least_drag is that of the table.
-///  - lower ... upper: slopes of c_n = c_l cos(alpha) + (c_d - least_drag) sin(alpha) between the points of the table,
+/// Attached flow of the first table of a polar, within 20 degrees of zero, as AeroDyn 5.0 finds what its files leave
+/// out [OpenFAST, modules/aerodyn/src/AirfoilInfo.f90; its manual, "Calculating Default Airfoil Coefficients",
+/// describes an older way to the slope]: - least_drag is that of the table. - lower ... upper: slopes of c_n = c_l
+/// cos(alpha) + (c_d - least_drag) sin(alpha) between the points of the table,
 ///    smoothed over 2 degrees to both sides with the weight (1 - u^2)^3; the range begins at the least drag and ends
 ///    on both sides where the slope falls below nine tenths of its largest value on the way.
 ///  - slope: that of the line of least squares through the lift in the middle three fifths of the range.
@@ -38,7 +37,7 @@ struct KnownFlow {
 /// @throws nothing; what is known and does not fit is found by UnsteadyProfile
 AttachedFlow attached_flow(const Polar& polar, const KnownFlow& known = {});
 
-/// Of every polar with its attached_flow() and the lags of a thin profile: AirLagOptions::profiles.
+/// Unsteady airfoils of every polar with its attached_flow() and the lags of a thin profile: AirLagOptions::profiles.
 std::vector<UnsteadyProfile> unsteady_profiles(const std::vector<Polar>& polars);
 
 }  // namespace cardan

@@ -31,9 +31,9 @@ struct RotorWake {
     double share = 1;  ///< of a and a' that there is: induction_share()
 };
 
-/// How much of the balance of momentum there is in a rotor that hardly turns: by its tip-speed ratio, nothing up to 1,
-/// all of it from 2 on, between them (1 - cos)/2, as in AeroDyn. Momentum theory takes the blades for a disc; a rotor
-/// that stands, or whose blades pass a place more slowly than the air does, is none.
+/// Fraction of the balance of momentum in a rotor that hardly turns: by its tip-speed ratio, nothing up to 1, all of it
+/// from 2 on, between them (1 - cos)/2, as in AeroDyn. Momentum theory takes the blades for a disc; a rotor that
+/// stands, or whose blades pass a place more slowly than the air does, is none.
 ///
 /// The ratio is that to the size of the wind, whatever its direction, so that loads are continuous through all yaw
 /// angles. Below 0.1 m/s of both there is none either: blades that sway in still air are no rotor.
@@ -48,7 +48,7 @@ InductionShare induction_share(double tip_speed, double wind);
 /// @param along, across  parts of the mean wind along the shaft, of either sign, and across it, m/s
 double skew_angle(double along, double across);
 
-/// Of one section. Axes: Annulus.
+/// Flow and force of one section. Axes: Annulus.
 struct SectionAir {
     double V_x = 0, V_y = 0;  ///< relative to the section, without induction, m/s
     Induction induction;
@@ -60,14 +60,14 @@ SectionAir section_air(const Annulus& annulus, double V_x, double V_y, const Rot
 SectionAir section_air(const Induction& balance, const Annulus& annulus, double V_x, double V_y, const RotorWake& wake,
                        double density);
 
-/// What the rotor's wake makes of the inductions along a blade, as section_air() does one by one.
+/// Adds the effect of the rotor's wake to the inductions along a blade, as section_air() does one by one.
 /// @param inductions  changed: a, a', and the angle of inflow with them
 /// @param angle       RotorWake::angle, rad
 /// @param levers      RotorWake::lever of each
 /// @param share       RotorWake::share
 void add_wake(std::span<Induction> inductions, std::span<const SectionInflow> sections, double angle,
               std::span<const double> levers, double share);
-/// The same for one.
+/// Induction of one section with the effect of the rotor's wake.
 Induction with_wake(const Induction& balance, double V_x, double V_y, const RotorWake& wake);
 
 /// Derivatives of normal, driving and moment (rows), exact: the balance of momentum by implicit differentiation. Zero

@@ -12,14 +12,14 @@
 
 namespace cardan {
 
-/// How the induction follows the loads.
+/// Way in which the induction follows the loads.
 enum class WakeLag : std::uint8_t {
     none,     ///< it is in equilibrium with them
     dynamic,  ///< DynamicInflow
     frozen    ///< the induced velocities stay, whatever the wake's skew
 };
 
-/// What lags on a section. Its states are those of the inflow, then those of the profile.
+/// Unsteady parts of a section. Its states are those of the inflow, then those of the profile.
 struct SectionLags {
     const UnsteadyProfile* profile = nullptr;  ///< none: that of the annulus, steady
     WakeLag wake = WakeLag::none;
@@ -32,10 +32,10 @@ struct SectionLags {
     int profile_states() const { return has_profile() ? profile->own_states() : 0; }
     int states() const { return inflow_states() + profile_states(); }
 };
-/// Of a section; only the first SectionLags::states() count.
+/// States of a section; only the first SectionLags::states() count.
 using SectionStates = Eigen::Matrix<double, SectionLags::most, 1>;
 
-/// What a section sees of its motion.
+/// Motion of a section as its flow sees it.
 struct SectionMotion {
     double V_x = 0, V_y = 0;  ///< air against the section without induction, m/s
     double rate = 0;          ///< of the section about its span, nose up, rad/s
@@ -47,7 +47,7 @@ struct LaggingAir {
     SectionStates rates = SectionStates::Zero();
     Eigen::Vector2d velocity;  ///< induced, in equilibrium with the loads, before the wake's skew, m/s
     double root = 0;           ///< of the balance, as Induction::root; for lagging_slopes()
-    bool solved = false;       ///< likewise
+    bool solved = false;       ///< for lagging_slopes(): whether `root` is one
 };
 LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
                        const RotorAirOptions& options, double density, const SectionLags& lags);

@@ -8,7 +8,7 @@
 
 namespace cardan {
 
-/// What the balance of momentum takes into account.
+/// Effects that the balance of momentum takes into account.
 struct MomentumOptions {
     bool tip_loss = true, hub_loss = true;  ///< Prandtl
     bool axial_drag = true;                 ///< drag in the axial balance
@@ -33,8 +33,8 @@ struct Annulus {
     double viscosity = standard_viscosity;  ///< kinematic, of the air, m^2/s: for polars at several Reynolds numbers
 };
 
-/// Of a section, with V_x and V_y the velocity of the air relative to it without induction:
-/// u_x = V_x (1 - a), u_y = V_y (1 + a'), phi = atan2(u_x, u_y), angle of attack phi - angle.
+/// Induction of a section, with V_x and V_y the velocity of the air relative to it without induction: u_x = V_x (1 -
+/// a), u_y = V_y (1 + a'), phi = atan2(u_x, u_y), angle of attack phi - angle.
 struct Induction {
     double axial = 0, tangential = 0;  ///< a, a'
     double phi = 0;                    ///< rad
@@ -73,7 +73,7 @@ struct SectionInflow {
 void solve_inductions(std::span<const SectionInflow> sections, const MomentumOptions& options,
                       std::span<Induction> out);
 
-/// The same by plain bisection of a thousand parts of each bracket.
+/// Solves for the induction by plain bisection of a thousand parts of each bracket.
 Induction solve_induction_plainly(const Annulus& annulus, double V_x, double V_y, const MomentumOptions& options = {});
 
 /// Forces per length, N/m, along x and against y (driving), and the moment about z, N.

@@ -29,13 +29,13 @@ public:
     /// finite, ascending, and reach around the circle, and the Reynolds numbers of several tables are positive and
     /// ascend
     Polar(std::string name, std::vector<Table> tables);
-    /// Of one table.
+    /// Makes a polar of one table.
     Polar(std::string name, std::vector<double> angles, std::vector<double> lift, std::vector<double> drag,
           std::vector<double> moment);
     /// Between two profiles: (1 - share) a + share b, over the angles and Reynolds numbers of both.
     static Polar mixed(std::string name, const Polar& a, const Polar& b, double share);
 
-    /// Of the first table.
+    /// Coefficients of the first table.
     Point at(double angle) const;
     Point at(double angle, double reynolds) const;
     const std::string& name() const { return name_; }

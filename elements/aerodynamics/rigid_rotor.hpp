@@ -16,9 +16,9 @@ struct AeroBlade {
     std::vector<double> twist;         ///< rad, positive towards feather, as the pitch
     std::vector<std::size_t> profile;  ///< index into polars
     std::vector<Polar> polars;
-    /// Of the aerodynamic centres from the pitch axis, m: downwind, and toward the trailing edge, before the pitch.
-    /// Empty: they lie on the reference line of the blade that carries them. A rotor that does not bend has them on its
-    /// straight axes.
+    /// Offsets of the aerodynamic centres from the pitch axis, m: downwind, and toward the trailing edge, before the
+    /// pitch. Empty: they lie on the reference line of the blade that carries them. A rotor that does not bend has them
+    /// on its straight axes.
     std::vector<double> prebend = {}, sweep = {};
     double viscosity = standard_viscosity;  ///< kinematic, of the air, m^2/s: for polars at several Reynolds numbers
 
@@ -30,7 +30,7 @@ struct AeroBlade {
     void check() const;
 };
 
-/// How a rotor stands: shaft axes are R_z(yaw) R_y(tilt), x along the shaft, downwind. It turns about +x, blade 1 up at
+/// Pose of a rotor: shaft axes are R_z(yaw) R_y(tilt), x along the shaft, downwind. It turns about +x, blade 1 up at
 /// azimuth 0.
 struct RotorPose {
     int blades = 3;
@@ -55,8 +55,8 @@ struct RotorAir {
 RotorAir rigid_rotor_air(const AeroBlade& blade, const RotorPose& pose, const SteadyWind& wind, double speed,
                          double azimuth, double pitch, const RotorAirOptions& options = {});
 
-/// Of a level rotor in uniform wind, by the radius of its disc; with polars at several Reynolds numbers in a wind of 8
-/// m/s.
+/// Coefficients of a level rotor in uniform wind, by the radius of its disc; with polars at several Reynolds numbers in
+/// a wind of 8 m/s.
 struct RotorCoefficients {
     double power, thrust;
 };

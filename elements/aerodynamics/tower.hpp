@@ -1,6 +1,5 @@
-/// @file
-/// What stands in the wind behind or before a rotor: drag of a tower and a nacelle, the flow around a tower and its
-/// wake.
+/// @file Tower and nacelle in the wind behind or before a rotor: drag of a tower and a nacelle, the flow around a tower
+/// and its wake.
 #pragma once
 
 #include "mbs/base/types.hpp"
@@ -58,14 +57,14 @@ struct AeroNacelle {
     void check() const;
 };
 
-/// What stands beside the rotor of a machine.
+/// Tower and nacelle of a machine in the wind.
 struct AeroSupport {
     AeroTower tower = {};
     AeroNacelle nacelle = {};
 };
 
-/// What the flow around a cylinder adds to a wind across its axis, m/s. With n the wind across, w its size, X the place
-/// across the axis over the radius and x = X, or X + 0.1 n/w with Bak's correction:
+/// Velocity that the flow around a cylinder adds to a wind across its axis, m/s. With n the wind across, w its size, X
+/// the place across the axis over the radius and x = X, or X + 0.1 n/w with Bak's correction:
 ///
 ///     n / x^2 - 2 (n . x) x / x^4  [+ C_d/(2 pi) w x / x^2, Bak].
 ///
@@ -77,8 +76,8 @@ struct AeroSupport {
 /// @param drag   C_d, of Bak's
 Vec3 tower_influence(TowerInfluence influence, const Vec3& wind, const Vec3& place, double drag);
 
-/// What the wake of a cylinder adds to a wind across its axis, m/s: -D n. With x = X . n/w, y the size of what is left
-/// of X, and r = |X|, for x > 0
+/// Velocity that the wake of a cylinder adds to a wind across its axis, m/s: -D n. With x = X . n/w, y the size of what
+/// is left of X, and r = |X|, for x > 0
 ///
 ///     Powles: D = C_d / sqrt(r) cos^2(pi y / (2 sqrt(r))) for y < sqrt(r), else 0,
 ///     Eames:  D = C_d / (sqrt(2 pi) I x) exp(-(y/(I x))^2 / 2),
@@ -92,7 +91,7 @@ Vec3 tower_influence(TowerInfluence influence, const Vec3& wind, const Vec3& pla
 /// @param turbulence         I, > 0, of Eames's
 Vec3 tower_shadow(TowerShadow shadow, const Vec3& wind, const Vec3& place, double drag, double turbulence);
 
-/// Their derivatives, for changes across the axis.
+/// Derivatives of influence and shadow of a tower, for changes across the axis.
 struct TowerInfluenceSlopes {
     Mat3 by_wind = Mat3::Zero(), by_place = Mat3::Zero();
     Vec3 by_drag = Vec3::Zero(), by_turbulence = Vec3::Zero();

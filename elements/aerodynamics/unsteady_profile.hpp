@@ -14,7 +14,7 @@
 
 namespace cardan {
 
-/// Of a profile whose flow does not separate.
+/// Lift and drag of an airfoil whose flow does not separate.
 struct AttachedFlow {
     double slope = 0;             ///< of the lift, 1/rad
     double zero_lift = 0;         ///< angle of attack without lift, rad
@@ -22,13 +22,13 @@ struct AttachedFlow {
     double least_drag = 0;        ///< drag coefficient without lift
 };
 
-/// What of a profile lags.
+/// Model of unsteady airfoil aerodynamics.
 enum class ProfileModel : std::uint8_t {
     four_states,  ///< all of it [Hansen, Gaunaa and Madsen]
     separation    ///< the point of separation [Oye]: for stall; attached flow does not lag, so that flutter comes early
 };
 
-/// Of a thin profile, indicial response by two exponentials; lags in half chords travelled.
+/// Constants of a thin airfoil, indicial response by two exponentials; lags in half chords travelled.
 struct ProfileLags {
     double A1 = 0.3, A2 = 0.7, b1 = 0.14, b2 = 0.53;
     double pressure = 1.7, boundary_layer = 3.0;
@@ -37,7 +37,7 @@ struct ProfileLags {
 /// Oye's model has a single lag, usually of 6 half chords.
 inline constexpr ProfileLags oye_lags{.boundary_layer = 6, .model = ProfileModel::separation};
 
-/// How a section moves through the air, at its aerodynamic centre, a quarter of the chord behind the leading edge.
+/// Motion of a section through the air, at its aerodynamic centre, a quarter of the chord behind the leading edge.
 struct ProfileMotion {
     double attack;  ///< rad
     double speed;   ///< of the air, m/s
@@ -45,8 +45,8 @@ struct ProfileMotion {
     double chord;   ///< m
 };
 
-/// With T = c / (2 U), the angle of attack at three quarters of the chord, alpha_34 = atan2(U sin alpha + rate c/2, U
-/// cos alpha), and alpha_E = (1 - A1 - A2) alpha_34 + x1 + x2:
+/// An airfoil whose coefficients follow its motion late. With T = c / (2 U), the angle of attack at three quarters of
+/// the chord, alpha_34 = atan2(U sin alpha + rate c/2, U cos alpha), and alpha_E = (1 - A1 - A2) alpha_34 + x1 + x2:
 ///
 ///     T x1' = A1 b1 alpha_34 - b1 x1,      T x2' = A2 b2 alpha_34 - b2 x2,
 ///     T_p T x3' = c_p - x3,                c_p = slope (alpha_E - zero_lift) + pi T rate,
@@ -76,7 +76,7 @@ public:
     /// @throws InputError for values that are not finite, a slope or a lag that is negative, `lower` above `upper`
     UnsteadyProfile(const Polar& polar, const AttachedFlow& flow, const ProfileLags& lags = {});
 
-    /// Those at rest.
+    /// States at rest.
     States steady(const ProfileMotion& motion) const;
     States rates(const States& x, const ProfileMotion& motion) const;
     Coefficients coefficients(const States& x, const ProfileMotion& motion) const;
@@ -96,7 +96,7 @@ public:
     Separation separation(double attack) const;
 
     bool is_unsteady() const { return flow_.slope > 0; }
-    /// How many states there are: the last ones of State.
+    /// Number of states: the last ones of State.
     int own_states() const { return follows_separation_alone() ? 1 : int{states}; }
     const AttachedFlow& flow() const { return flow_; }
     const ProfileLags& lags() const { return lags_; }

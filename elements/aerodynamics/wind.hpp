@@ -10,7 +10,7 @@
 
 namespace cardan {
 
-/// How the speed of the wind changes with height.
+/// Law by which the speed of the wind changes with height.
 enum class Shear : std::uint8_t {
     none,
     power,       ///< (z / reference height)^exponent
@@ -61,7 +61,7 @@ class WindAtPlaces {
 public:
     explicit WindAtPlaces(const SteadyWind& wind);
     Vec3 at(const Vec3& place) const;
-    /// The same at many places.
+    /// Velocities at many places.
     /// @param out  as many
     void at(std::span<const Vec3> places, std::span<Vec3> out) const;
 
@@ -84,11 +84,11 @@ public:
 
     SteadyWind at(double time) const;
     bool is_steady() const { return rows_.size() == 1; }
-    /// With angles added to its direction and its upflow, rad.  @throws InputError for angles out of range
+    /// A copy with angles added to its direction and its upflow, rad.  @throws InputError for angles out of range
     Wind turned(double direction, double upflow) const;
-    /// With heights counted from there, m.
+    /// A copy with heights counted from there, m.
     Wind over(double ground) const;
-    /// Where it is not smooth: those of the table. Empty: it is steady.
+    /// Times at which the wind is not smooth: those of the table. Empty: it is steady.
     std::vector<double> breaks() const;
     const std::vector<double>& times() const { return times_; }  ///< of the rows, s; of a steady wind 0
     const std::vector<SteadyWind>& rows() const { return rows_; }

@@ -25,7 +25,7 @@ public:
     /// Axes of the section (x tangent; y and z those of the line, not of the principal axes), origin on the reference
     /// line; base axes.
     Pose<double> pose(const Kinematics& kin) const;
-    /// Of the point of the reference line, base axes, m/s^2; relative to the ground, without gravity.
+    /// Acceleration of the point of the reference line, base axes, m/s^2; relative to the ground, without gravity.
     Vec3 acceleration(const Kinematics& kin, const JointLoads& loads) const;
     /// Force and moment about the point of the reference line that the outboard part exerts on the inboard part, base
     /// axes, by equilibrium: see equilibrium_loads().

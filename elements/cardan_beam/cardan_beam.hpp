@@ -54,7 +54,7 @@ struct CardanBeamOptions {
     bool holds_all() const { return held_y && held_z && !torsion && !extension; }
 };
 
-/// What was added to the tree.
+/// Parts of a beam that were added to the tree.
 struct CardanBeam {
     /// A rigid body B1 ... B4 of an element.
     struct Segment {

@@ -17,14 +17,14 @@ struct HingeLaw {
     /// The hinge angles are measured in the section as turned by the torsion between the clamped end and the hinge: for
     /// unequal bending stiffnesses with torsion.
     bool section_frame = false;
-    /// For sections flexible in shear with extension free, the springs measure the strains of a rod, not those of
+    /// The springs of sections flexible in shear, with extension free, measure the strains of a rod, not those of
     /// bodies tilted by shear (ShearTilt). Without it, as in the 2007 paper, refinement converges to a different rod.
     bool rod_strains = true;
     /// True if the law is linear in the hinge angles.
     bool is_linear() const { return !isotropic && !section_frame; }
 };
 
-/// How shear tilts the bodies between the hinges of an element although its sections do not turn, and which part of
+/// Tilt by shear of the bodies between the hinges of an element although its sections do not turn, and which part of
 /// that the springs must not measure. In terms of the springs' arguments y: psi = (psi_y, psi_z) = Psi y.
 struct ShearTilt {
     /// z_spring = y_spring + ... + factor (a . y) (b . y)

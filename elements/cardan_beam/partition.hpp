@@ -1,5 +1,4 @@
-/// @file
-/// How the mass of a beam element is distributed over its four rigid bodies.
+/// @file Distribution of the mass of a beam element over its four rigid bodies.
 #pragma once
 
 #include "elements/cardan_beam/timoshenko.hpp"

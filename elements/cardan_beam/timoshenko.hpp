@@ -14,12 +14,12 @@ namespace cardan {
 /// true segment masses.
 inline constexpr double delta_gauss = 0.21132486540518711775;
 
-/// Where the joints of an element sit, as fractions of its length.
+/// Positions of the joints of an element, as fractions of its length.
 struct Hinges {
     double first, second;  ///< cardan joints
     double middle;         ///< cylindrical joint, between them
     static Hinges symmetric(double delta) { return {delta, 1 - delta, 0.5}; }
-    /// Where the bodies B1 ... B4 begin and end.
+    /// Ends of the bodies B1 ... B4.
     std::array<double, 5> ends() const { return {0, first, middle, second, 1}; }
 };
 
@@ -34,7 +34,7 @@ enum class ElementCoordinate : std::uint8_t { u, phi, ay1, ay2, az1, az2 };
 /// @param hinges  any places 0 <= first < second <= 1
 Mat6 section_forces_by_joint_forces(double x, double L, const Hinges& hinges);
 
-/// How an element on a curve gets its flexibility.
+/// Source of the flexibility of an element on a curve.
 enum class CurvedFlexibility : std::uint8_t {
     curve,  ///< section forces evaluated on the curve, in local section axes: exact tip compliance of the curved piece
     chord   ///< the sections laid along the chord

@@ -34,7 +34,8 @@ public:
         double rated_speed = 0;              ///< of the generator, rad/s
         double largest_torque = 0;           ///< N m
     };
-    /// What the machine tells, SI; a blade's values by its place. Records not named here are zero.
+    /// Measured values that the controller is given, SI; a blade's values by its place. Records not named here are
+    /// zero.
     struct Measured {
         double time = 0;
         std::array<double, 3> pitch{};                ///< records 4, 33, 34, towards feather

@@ -19,7 +19,7 @@ struct ControlBlock {
     ControlSignal output;
 };
 
-/// What the states of a block are called, and where they belong: as StateInfo.
+/// Names of the states of a block, and the parts that they belong to: as StateInfo.
 struct BlockName {
     std::string name;  ///< of the block; its state is called the same
     std::string unit;
@@ -72,7 +72,7 @@ struct PiController {
 };
 ControlBlock pi_controller(const PiController& block);
 
-/// How an actuator follows its demand x with its position p (or torque, or force).
+/// Law by which an actuator follows its demand x with its position p (or torque, or force).
 struct Actuator {
     BlockName name;
     ControlSignal demand;
@@ -85,12 +85,14 @@ struct Actuator {
 /// The actuator alone: its output is p.
 /// @throws InputError unless either the time constant or the frequency is positive
 ControlBlock actuator(const Actuator& block);
-/// With a spring and a damper to a coordinate: Q = -stiffness (q - sense (p - zero)) - drive_damping (qd - sense p').
+/// Makes an actuator with a spring and a damper to a coordinate: Q = -stiffness (q - sense (p - zero)) - drive_damping
+/// (qd - sense p').
 /// @param sense  -1: p is positive against the coordinate, as for pitch (positive toward feather)
 /// @param zero   p where q is zero: the pitch that a blade is mounted with, say
 ControlBlock position_actuator(const Actuator& block, BodyId coordinate, double stiffness, double drive_damping,
                                double sense = 1, double zero = 0);
-/// That acts on a coordinate with the force p itself: Q = factor p. A generator's torque: factor = -gear ratio.
+/// Makes an actuator that acts on a coordinate with the force p itself: Q = factor p. A generator's torque: factor =
+/// -gear ratio.
 ControlBlock force_actuator(const Actuator& block, BodyId coordinate, double factor = 1);
 /// A signal that acts on a coordinate at once, without a state: Q = factor x.
 ForceElement signal_force(std::string name, const ControlSignal& signal, BodyId coordinate, double factor = 1);

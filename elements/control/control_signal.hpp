@@ -13,7 +13,7 @@
 
 namespace cardan {
 
-/// Where a signal comes from.
+/// Source of a signal.
 struct ControlSource {
     enum class Kind : std::uint8_t { position, rate, state, input };
     Kind kind = Kind::input;

@@ -21,11 +21,11 @@ struct TorqueLaw {
     double slip = 0;          ///< rated speed over the synchronous one, minus 1
 
     bool acts() const { return rated_torque != 0; }
-    /// Where the line of the induction machine begins, rad/s.
+    /// Speed at which the line of the induction machine begins, rad/s.
     double synchronous_speed() const { return rated_speed / (1 + slip); }
-    /// Its slope, N m s/rad.
+    /// Slope of the line of the induction machine, N m s/rad.
     double slope() const { return rated_torque / (rated_speed - synchronous_speed()); }
-    /// Where it meets the parabola, rad/s; not a number if it does not.
+    /// Speed at which that line meets the parabola, rad/s; not a number if it does not.
     double transition_speed() const;
     /// @param speed  rad/s
     At at(double speed) const;

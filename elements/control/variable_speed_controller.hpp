@@ -13,7 +13,7 @@
 
 namespace cardan {
 
-/// Of a PI controller from the speed of the generator to the pitch, at a pitch.
+/// Gains of a PI controller from the speed of the generator to the pitch, at a pitch.
 struct PitchGains {
     double pitch = 0;         ///< rad
     double proportional = 0;  ///< s (rad per rad/s)
@@ -85,10 +85,10 @@ public:
 
     /// Torque at a filtered speed and pitch, without limits of rate, N m.
     double torque(double speed, double pitch) const;
-    /// Without VariableSpeedParameters::gains: gain of the pitch controller at a pitch, relative to that at zero.
+    /// Gain, without VariableSpeedParameters::gains, of the pitch controller at a pitch, relative to that at zero.
     double gain(double pitch) const { return 1 / (1 + pitch / own_.doubling_pitch); }
 
-    /// What it remembers, and back.
+    /// Memory of the controller, for restore().
     std::vector<double> save() const { return {memory_.begin(), memory_.end()}; }
     /// @throws InputError for another number of values
     void restore(std::span<const double> from);

@@ -8,13 +8,13 @@
 
 namespace cardan {
 
-/// What the controller measures.
+/// Signals that the controller measures.
 struct VariableSpeedSignals {
     ControlSignal generator_speed;  ///< rad/s
     ControlSignal pitch;            ///< of the blades, towards feather, rad
 };
 
-/// Where VariableSpeedController has bends and jumps, its equivalent has short curves of this width.
+/// Widths of the short curves that stand for the bends and jumps of VariableSpeedController.
 struct VariableSpeedRounding {
     double speed = 0.002;               ///< on either side of a bend of the torque curve, part of the rated speed
     double pitch = 8.7266462599716e-4;  ///< at the limits of the pitch, rad: 0.05 deg

@@ -42,7 +42,7 @@ struct Capacitor {
     double capacitance = 0;      ///< F, > 0
     double initial_voltage = 0;  ///< V, positive at `from`
 };
-/// With a resistance of its own in series.
+/// A winding with a resistance in series.
 struct Winding {
     std::string name, from, to;
     double inductance = 0;  ///< H; what depends on coordinates: Circuit::vary()

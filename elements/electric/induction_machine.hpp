@@ -51,7 +51,7 @@ struct EquivalentCircuit {
     void check(const std::string& where) const;
 };
 
-/// What Kloss' formula leaves open, where nothing better is known.
+/// Assumptions about what Kloss' formula leaves open, where nothing better is known.
 struct CircuitAssumptions {
     double magnetising = 40;         ///< magnetising reactance over the leakage of the stator
     double rotor_leakage = 1;        ///< over that of the stator
@@ -64,7 +64,7 @@ struct CircuitAssumptions {
 EquivalentCircuit equivalent_circuit(const InductionMachine& machine, double line_voltage, double frequency,
                                      const CircuitAssumptions& assumed = {});
 
-/// How much of the machine's electric dynamics is kept.
+/// Order of the machine's electric dynamics.
 enum class MachineOrder : std::uint8_t {
     fifth,  ///< fluxes of stator and rotor: four states, currents of a direct start, sags
     third,  ///< fluxes of the rotor, stator at its steady state in axes that turn with the grid's voltage: two states
@@ -117,8 +117,8 @@ struct DoublyFedGenerator {
     std::string alias = "GenTq";
 };
 ForceElement doubly_fed_generator(const DoublyFedGenerator& machine);
-/// As of the squirrel cage; powers are those of stator and converter together. And "<name> rotor voltage", peak, V,
-/// referred to the stator.
+/// Channels as those of the squirrel cage; powers are those of stator and converter together. In addition "<name> rotor
+/// voltage", peak, V, referred to the stator.
 ChannelGroup doubly_fed_generator_channels(const DoublyFedGenerator& machine);
 
 }  // namespace cardan

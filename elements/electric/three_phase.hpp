@@ -26,8 +26,9 @@ struct ThreePhaseMachine {
     /// 0, 1, 2 for a, b, c: this phase is not connected.
     std::optional<int> open_phase = {};
 };
-/// With sources "<name> source a", ..., windings "<name> stator a", ..., "<name> rotor A", ... It depends on time and
-/// angle: motions in time only. A grid that is cut off is refused; so is the zero sequence.
+/// Circuit of a three-phase machine with sources "<name> source a", ..., windings "<name> stator a", ..., "<name> rotor
+/// A", ... It depends on time and angle: motions in time only. A grid that is cut off is refused; so is the zero
+/// sequence.
 Circuit three_phase_machine(const ThreePhaseMachine& machine);
 
 }  // namespace cardan

@@ -47,7 +47,8 @@ struct Bearing {
     FrameId a = {}, b = {};
     BearingCoefficients coefficients = {};
 };
-/// Without energy, since it may have none. @throws InputError for numbers that are not finite
+/// Adds a bearing without a potential, since its forces may have none. @throws InputError for numbers that are not
+/// finite
 void add_bearing(ForceSet& forces, const Bearing& bearing);
 
 }  // namespace cardan

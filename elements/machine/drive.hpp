@@ -24,7 +24,7 @@ public:
     /// Starts the travel to a new target; whatever was commanded for later than `time` is dropped.
     /// @throws InputError for values that are not finite
     void move_to(double target, double time);
-    /// As above, with a different largest rate for this command only.
+    /// Moves to a target with a different maximum rate for this command only.
     void move_to(double target, double time, double rate);
     /// One of a sequence of commands that come every `period` (s): moves linearly from the present position to
     /// `target`, within one period or, if that is too fast, at the largest rate. Only the rate is limited: a ramp of

@@ -9,7 +9,7 @@ namespace cardan {
 
 enum class Axis : std::uint8_t { x, y, z };
 
-/// What a coordinate belongs to.
+/// Label of the part that a coordinate belongs to.
 struct PartLabel {
     std::string part = {};
     int blade = 0;

@@ -27,7 +27,7 @@ namespace cardan {
 FrameLoad load_over_time(std::string name, FrameId frame, std::vector<double> times, std::vector<Wrench> rows,
                          WrenchAxes axes = WrenchAxes::base);
 
-/// Likewise a force alone, N.
+/// A force over time, without a moment, N.
 FrameLoad force_over_time(std::string name, FrameId frame, std::vector<double> times, const std::vector<Vec3>& forces,
                           WrenchAxes axes = WrenchAxes::base);
 

@@ -13,9 +13,9 @@ namespace cardan {
 enum class BaseCoordinate : std::uint8_t { surge, sway, heave, roll, pitch, yaw };
 
 struct MovingBaseOptions {
-    /// For surge, sway, heave, roll, pitch, yaw in this order: unit vector along or about which the coordinate is
-    /// positive (rotations right-handed), in the carrier's axes at rest. The default with x downwind and z up is that
-    /// of OpenFAST: positive pitch moves the top of the tower downwind.
+    /// Unit vectors of surge, sway, heave, roll, pitch, yaw in this order: each is along or about which the coordinate
+    /// is positive (rotations right-handed), in the carrier's axes at rest. The default with x downwind and z up is
+    /// that of OpenFAST: positive pitch moves the top of the tower downwind.
     std::array<Vec3, 6> directions{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(),
                                    Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
     /// Order of the rotations, the first one about an axis of the carrier: R = R_first R_second R_third. The middle
@@ -32,7 +32,7 @@ struct MovingBaseOptions {
     void check(const std::string& name) const;
 };
 
-/// What was added to the tree.
+/// Parts of a moving base that were added to the tree.
 struct MovingBase {
     FrameId frame;                      ///< moving frame; at q = 0 it coincides with the carrier
     std::array<BodyId, 6> coordinates;  ///< surge ... yaw

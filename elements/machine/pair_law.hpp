@@ -13,25 +13,25 @@
 
 namespace cardan {
 
-/// What a pair law depends on: a weighted sum of two relative measures at most.
+/// Measure that a pair law depends on: a weighted sum of two relative measures at most.
 struct PairMeasure {
     std::array<RelativeMeasure, 2> parts = {};
     std::array<double, 2> weights = {1, 0};
 
-    /// How far the origin of b lies from that of a along axis i (0, 1, 2) of a, m.
+    /// Offset of the origin of b from that of a along axis i (0, 1, 2) of a, m.
     static PairMeasure along(int i) { return {{RelativeMeasure{RelativeMeasure::Kind::along, i, 0}, {}}, {1, 0}}; }
-    /// How far b is turned against a about axis i, as the sine of the angle about one axis: half the skew part of the
+    /// Rotation of b against a about axis i, as the sine of the angle about one axis: half the skew part of the
     /// rotation matrix.
     static PairMeasure turn(int i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         return {{RelativeMeasure{RelativeMeasure::Kind::square, k, j}, {RelativeMeasure::Kind::square, j, k}},
                 {0.5, -0.5}};
     }
-    /// How far the origins lie from one another, m.
+    /// Distance of the origins from one another, m.
     static PairMeasure distance() { return {{RelativeMeasure{RelativeMeasure::Kind::distance, 0, 0}, {}}, {1, 0}}; }
 };
 
-/// What a law answers, one entry per measure; all zero when it is asked.
+/// Forces of a pair law, one entry per measure; all zero when it is asked.
 struct PairForces {
     Vector f = {};                ///< on the measures: Q_a = f_i dx_i/dq^a
     Matrix by_x = {}, by_v = {};  ///< df_i/dx_j, df_i/dv_j

@@ -23,8 +23,8 @@ struct PointSpring {
     bool cable = false;
 };
 
-/// With exact derivatives and energy; loads of joints and channels take it into account. Its stiffness counts as
-/// elastic.
+/// Adds a spring with exact derivatives and energy; loads of joints and channels take it into account. Its stiffness
+/// counts as elastic.
 /// @throws InputError for values out of range, and a spring without stiffness and damping
 void add_point_spring(ForceSet& forces, const PointSpring& spring);
 

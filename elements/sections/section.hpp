@@ -15,7 +15,7 @@
 
 namespace cardan {
 
-/// What the beam element needs to know about a section, at the reference line and in beam axes.
+/// Data of a section that the beam element needs, at the reference line and in beam axes.
 struct BeamSection {
     Mat6 compliance =
         Mat6::Zero();  ///< strains (eps, gamma_y, gamma_z, kappa_x, kappa_y, kappa_z) by forces (N, Vy, Vz, T, My, Mz)
@@ -74,7 +74,7 @@ struct BeamLine {
 /// a different number of sections.
 void check_stations(const std::string& name, const std::vector<double>& x, std::size_t sections);
 
-/// How columns of a table are interpolated between stations.
+/// Interpolation of the columns of a table between stations.
 enum class Interpolation : std::uint8_t { linear, log_linear_stiffness };
 
 /// Sections at stations. Mass, twist, offsets and inertias are linear between stations; stiffnesses are linear or

@@ -54,9 +54,9 @@ SectionMatrices section_matrices(const BeamSection& section);
 /// The engineering constants that approximate a section best.
 struct EngineeringForm {
     EngineeringSection section;
-    /// What engineering constants cannot express (bend-twist, extension-twist ..., principal axes of inertia apart from
-    /// those of bending): the largest error of the compliance over the root of its diagonal entries, and of the inertia
-    /// over its largest moment. Up to rounding (1e-12) the form is exact.
+    /// Coupling that engineering constants cannot express (bend-twist, extension-twist ..., principal axes of inertia
+    /// apart from those of bending): the largest error of the compliance over the root of its diagonal entries, and of
+    /// the inertia over its largest moment. Up to rounding (1e-12) the form is exact.
     double coupling = 0;
 };
 /// Principal axes of bending at most 45 degrees from the beam axes, centres, and stiffnesses about them.

@@ -27,7 +27,7 @@ Dual<N> coefficient(double value, double slope, const Dual<N>& angle, double by,
     return by == 0 ? angle.chain(value, slope) : Dual<N>(value, slope * angle.slopes + by * reynolds.slopes);
 }
 
-/// Of chord and velocity in the plane of the section; zero where no polar asks for it.
+/// Reynolds number by chord and velocity in the plane of the section; zero where no polar asks for it.
 template <class S>
 S reynolds_of(const Annulus& annulus, const S& u_x, const S& u_y) {
     using std::sqrt;
@@ -99,7 +99,7 @@ public:
         const S part = solidity_ / (4 * F * s);
         return {part * normal / s, options_.rotation ? part * driving : S(0), F, of_phi};
     }
-    /// Of the profile.
+    /// Angle of attack of the airfoil.
     S attack(const S& phi) const {
         const S turned = backwards_ ? S(pi - phi) : phi;
         return (from_behind_ ? S(-turned) : turned) - angle_;
@@ -124,12 +124,13 @@ public:
         const double k = value_of(at(phi).k);
         return brakes(phi) ? k > 1 : k >= -1;
     }
-    /// Of Ning's equation, multiplied by what has a pole: continuous from 0 to pi.
+    /// Residual of Ning's equation, multiplied by what has a pole: continuous from 0 to pi.
     S residual(const S& phi) const {
         const Point point = at(phi);
         return point.of_phi.sine * along(phi, point) * V_y_ - V_x_ * (point.of_phi.cosine - point.swirl);
     }
-    /// How much of a there is, and of a': nothing where the ring has next to no throughflow, which they are ratios to.
+    /// Fraction of a that there is (swirl_share(): of a'): nothing where the ring has next to no throughflow, which
+    /// they are ratios to.
     S axial_share() const { return share_of(no_axial); }
     S swirl_share() const { return share_of(no_swirl); }
     bool has_throughflow() const { return no_axial * value_of(V_x_) > value_of(V_y_); }
@@ -197,7 +198,7 @@ S redistribution(const S& axial, const S& angle, const S& lever) {
     return redistribution<S>(tangent / sin(angle), lever);
 }
 
-/// What reaches a section when the wake has taken its share.
+/// Velocity that reaches a section when the wake has taken its share.
 template <class S>
 struct Reaching {
     S u_x, u_y;
@@ -229,8 +230,8 @@ Loads<S> loads_of(const Annulus& annulus, const S& angle, const Reaching<S>& u, 
             attack};
 }
 
-/// The same from what reaches a section, u, without sines: speed times sine and cosine of the inflow's angle are the
-/// velocities.
+/// Coefficients of a section from the velocity u that reaches it, without sines: speed times sine and cosine of the
+/// inflow's angle are the velocities.
 struct SectionCoefficients {
     double lift, drag, moment;
 };
@@ -242,7 +243,7 @@ inline SectionForce force_of(const Annulus& annulus, double u_x, double u_y, dou
             std::abs(attack) <= pi ? attack : std::remainder(attack, 2 * pi)};
 }
 
-/// Of a profile that is steady.
+/// Force on a section whose airfoil is steady.
 inline SectionForce table_force(const Annulus& annulus, const Reaching<double>& u, double attack, double density) {
     const Polar::Point c = point_of(*annulus.polar, attack, reynolds_of<double>(annulus, u.u_x, u.u_y));
     return force_of(annulus, u.u_x, u.u_y, attack, {c.lift, c.drag, c.moment}, density);

@@ -31,7 +31,7 @@ Factors<Dual<N>> factors_of(const Annulus& annulus, const Inflow<Dual<N>>& inflo
     return factors_at(balance, root_of(annulus, inflow, root, options.momentum, place));
 }
 
-/// What the rotor's wake makes of them.
+/// Applies the effect of the rotor's wake.
 /// @param skewed  a skewed wake redistributes a
 template <class S>
 Factors<S> in_wake(const Factors<S>& balance, const S& share, const S& angle, const S& lever, bool skewed) {

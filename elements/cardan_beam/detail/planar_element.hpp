@@ -14,8 +14,8 @@ struct PlanarSection {
     double shear = 0;    ///< 1/GA, 1/N
 };
 
-/// How the compliances of both planes are combined into one: sqrt(det) of the 2 x 2 compliance of the section, which is
-/// 1/sqrt(EI_y EI_z) in whatever axes; or half the trace.
+/// Mean by which the compliances of both planes are combined into one: sqrt(det) of the 2 x 2 compliance of the
+/// section, which is 1/sqrt(EI_y EI_z) in whatever axes; or half the trace.
 enum class PlaneMean : std::uint8_t { geometric, arithmetic };
 
 class PlanarElement {
@@ -25,7 +25,7 @@ public:
     /// @param sections  at 0 <= x <= length
     /// @param breaks    where they have kinks or jumps, ascending, m
     PlanarElement(double length, std::vector<double> breaks, std::function<PlanarSection(double x)> sections);
-    /// For an element that bends in both planes with the same bodies: mean compliance, likewise for shear. Lengths are
+    /// Makes an element that bends in both planes with the same bodies: mean compliance, also in shear. Lengths are
     /// measured along the line.
     explicit PlanarElement(const ElementLine& element, PlaneMean mean = PlaneMean::geometric);
 

@@ -11,15 +11,15 @@
 
 namespace cardan::detail {
 
-/// With the currents j of the links that are windings, i = A_j j + A_s v - A_c u of all branches, v of the sources and
-/// u of the capacitors, and d lambda/dt = F_j j + F_s v - F_c u - dphi/dq qd.
+/// Equations of a circuit: with the currents j of the links that are windings, i = A_j j + A_s v - A_c u of all
+/// branches, v of the sources and u of the capacitors, and d lambda/dt = F_j j + F_s v - F_c u - dphi/dq qd.
 class CircuitEquations {
 public:
     static constexpr int most = 24;  ///< links that are windings, capacitors, sources, coordinates
     using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>;
     using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
 
-    /// Of inductances, over the links.
+    /// A term of the inductances, over the links.
     struct Term {
         Matrix shape;
         Eigen::Index coordinate;
@@ -50,13 +50,13 @@ public:
     void rates(const ElementView& in, VectorOut& Q, VectorOut& f) const;
     void jacobian(const ElementView& in, ElementJacobian& d) const;
     ElementPower power(const ElementView& in) const;
-    /// Of all branches, A.
+    /// Currents of all branches, A.
     Vector branch_currents(const ElementView& in) const;
     /// Forces on the coordinates.
     Column forces(const ElementView& in) const;
     /// @throws InputError unless the inductance matrix of the loops is positive definite
     void check(const Column& q) const { static_cast<void>(factorised(q)); }
-    /// Of the loops, H, with all coordinates zero.
+    /// Inductances of the loops, H, with all coordinates zero.
     Vector inductance_at_zero() const { return inductance(Column::Zero(coordinates)).diagonal(); }
 
     Eigen::Index links() const { return constant.rows(); }

@@ -15,7 +15,8 @@ struct CircuitEdge {
     int from, to, rank;
 };
 
-/// What is left of the edges after the tree, and the loops that they close: i = B j with the currents j of the links.
+/// Links, which are the edges outside of the tree, and the loops that they close: i = B j with the currents j of the
+/// links.
 struct CircuitLoops {
     std::vector<std::size_t> links;
     Matrix B;  ///< edges x links: 1, -1 or 0

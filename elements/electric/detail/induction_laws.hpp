@@ -47,7 +47,7 @@ struct MachineConstants {
     }
 };
 
-/// What a machine does at an instant; currents into the machine.
+/// Currents, fluxes and torque of a machine at an instant; currents into the machine.
 template <class S>
 struct MachineState {
     Phasor<S> voltage, stator_current, rotor_current, rotor_voltage;

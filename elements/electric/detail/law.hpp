@@ -13,7 +13,7 @@
 
 namespace cardan::detail {
 
-/// What a law sees; `demands` are signals.
+/// Values that a law sees; `demands` are signals.
 template <class S>
 struct LawInput {
     double time;

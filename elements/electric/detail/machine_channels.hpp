@@ -12,7 +12,7 @@ namespace cardan::detail {
 
 /// Names of the channels of a machine whose currents are known.
 std::vector<Channel> machine_channel_names(const std::string& name, const std::string& alias, bool fed_rotor);
-/// Their values.
+/// Computes the values of the machine's channels.
 void machine_channel_values(const MachineState<double>& at, double omega, double time, bool fed_rotor, double* values);
 
 /// @param omega  of the axes in which the currents are given, rad/s
@@ -31,7 +31,7 @@ ChannelGroup machine_channels(const std::string& name, const std::string& alias,
     return group;
 }
 
-/// Of a machine that has nothing but a torque.
+/// Channels of a machine that has nothing but a torque.
 ChannelGroup torque_channels(const std::string& name, const std::string& alias, const ForceElement& element,
                              const MachineConstants& machine);
 
