@@ -25,7 +25,7 @@ namespace cardan::turbines {
 
 struct AirLags;
 
-/// What of the air lags behind the motion: states of first order.
+/// Options of unsteady aerodynamics: states of first order that lag behind the motion.
 struct AirLagOptions {
     /// In the place of the blade's polars, one for each; those of cylinders and of the like lag in nothing. Empty:
     /// profiles are steady.
@@ -50,23 +50,22 @@ public:
                const AeroSupport& support = {})
         : MachineAir(turbine, std::move(blade), Wind(wind), options, support) {}
 
-    /// The same in another wind.
+    /// A copy in another wind.
     MachineAir in(const Wind& wind) const;
 
-    /// The same with air that lags. Functions of a state then take the states of the air as well: values().
+    /// A copy with air that lags. Functions of a state then take the states of the air as well: values().
     /// @throws InputError for another number of profiles than of polars, a time that is not positive
     MachineAir lagging(AirLagOptions options) const;
-    /// Likewise, the induced velocities being those of a state for ever; profiles lag as they do.
+    /// A copy whose induced velocities are those of a state for ever; airfoils lag as before.
     MachineAir with_frozen_wake(const ElementView& at) const;
     /// The mean of several states, such as those of a revolution: sections().
     /// @throws InputError for none, and those of another machine
     MachineAir with_frozen_wake(std::span<const std::vector<std::vector<SectionAir>>> states) const;
-    /// Likewise, in a wind that an input of the system changes: m/s, added to the speed at the reference height, of
-    /// which the wind elsewhere is a share. on() adds the input, zero at the start. Blades see it; tower and nacelle do
-    /// not.
+    /// A copy in a wind that an input of the system changes: m/s, added to the speed at the reference height, of which
+    /// the wind elsewhere is a share. on() adds the input, zero at the start. Blades see it; tower and nacelle do not.
     MachineAir with_wind_input(const std::string& name = "wind speed") const;
     int states() const;
-    /// What the air sees of a motion: of its own states and of its input.
+    /// Values that the air sees of a motion: of its own states and of its input.
     /// @param forces  of on()
     ElementValues values(const StateView& at, const Forces& forces) const;
     /// States that stay as they are while the machine moves as it does.

@@ -13,7 +13,7 @@
 
 namespace cardan::turbines {
 
-/// Where the aerodynamic centres of the sections are.
+/// Source of the aerodynamic centres of the sections.
 enum class Nrel5mwCentres : std::uint8_t {
     pitch_axis,  ///< as in the public files of AeroDyn 15
     report       ///< as the report's table of the blade says: up to an eighth of the chord before the pitch axis, about
@@ -23,8 +23,9 @@ enum class Nrel5mwCentres : std::uint8_t {
 /// 19 sections from the root (1.5 m) to the tip (63 m), eight profiles.
 AeroBlade nrel5mw_aero_blade(Nrel5mwCentres centres = Nrel5mwCentres::pitch_axis);
 
-/// Its profiles with the lags of their flow; the two cylinders have none. Angles without lift and of separation from
-/// the public files; that of the NACA64 profile is the zero of its table (turbines/data/nrel5mw_unsteady.csv).
+/// Airfoils of the machine with the lags of their flow; the two cylinders have none. Angles without lift and of
+/// separation from the public files; that of the NACA64 profile is the zero of its table
+/// (turbines/data/nrel5mw_unsteady.csv).
 std::vector<UnsteadyProfile> nrel5mw_unsteady_profiles();
 
 }  // namespace cardan::turbines

@@ -33,7 +33,7 @@ public:
     /// tower, and as AeroTower::check() and AeroNacelle::check()
     TowerAir(const Turbine& turbine, const AeroSupport& support, const Wind& wind);
 
-    /// The same in another wind.
+    /// A copy in another wind.
     TowerAir in(const Wind& wind) const;
 
     /// "air on the tower": its forces, for ForceSet::add_element(); valid for every machine with the tree of `turbine`.

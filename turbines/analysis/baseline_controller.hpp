@@ -8,7 +8,7 @@
 
 namespace cardan::turbines {
 
-/// Its numbers, each from the first source that has it:
+/// Parameters of the baseline controller, each from the first source that has it:
 ///
 /// 1. of the NREL 5 MW machine, by the rated speed of its generator and its gear ratio, those of its report;
 /// 2. ControllerGains of the model, as of a ROSCO controller's file: limits, torque and rows of gains;

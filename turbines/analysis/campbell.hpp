@@ -19,7 +19,8 @@
 
 namespace cardan::turbines {
 
-/// With the machine in its description (`source`), and what it holds for and how accurate it is in words.
+/// A Campbell diagram with the machine in its description (`source`), and what it holds for and how accurate it is in
+/// words.
 struct CampbellDiagram : solvers::Campbell {
     CampbellSettings settings = {};  ///< with what was not given: rotor speeds, schedule of the pitch, frequency
     Mesh mesh = {};

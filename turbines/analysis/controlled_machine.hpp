@@ -12,8 +12,8 @@
 
 namespace cardan::turbines {
 
-/// With what the machine says where the controller says nothing: kind, period, efficiency, individual pitch, numbers of
-/// the baseline controller. What was taken is reported.
+/// A controller with the machine's values where it has none: kind, period, efficiency, individual pitch, numbers of the
+/// baseline controller. What was taken is reported.
 /// @throws InputError for a period or an efficiency out of range, a file that nobody reads, an actuator without a
 /// controller, a rotor that does not turn freely, and as baseline_controller(); FileError for an input that does not
 /// exist
@@ -24,7 +24,7 @@ Controller checked(Controller controller, const Machine& machine, const Report& 
 /// @throws InputError for a linkage, and for an actuator of blades without inertia about their pitch axes
 void make_pitch_drives(const Controller& controller, TurbineDescription& machine);
 
-/// Where a controller begins.
+/// State in which a controller begins.
 struct ControllerStart {
     double speed = 0;         ///< of the rotor, rad/s
     double pitch = 0;         ///< rad
@@ -54,7 +54,7 @@ struct ControlledMachine {
 ControlledMachine controlled_machine(const Controller& own, const Turbine& machine,
                                      const ControlledMachineOptions& options);
 
-/// For the description of a run; empty: there is none.
+/// A controller in words, for the description of a run; empty: there is none.
 std::string in_words(const Controller& controller);
 
 }  // namespace cardan::turbines

@@ -4,8 +4,8 @@
 
 namespace cardan::turbines {
 
-/// How many of a unit a value is: the number of fewest digits that, times the unit, is the value to the last bit; if
-/// there is none, value / unit.
+/// A value in a unit: the number of fewest digits that, times the unit, is the value to the last bit; if there is none,
+/// value / unit.
 double in_unit(double value, double unit);
 /// The value itself, if in_unit() has a number that gives it, else the nearest one that has: what a user may write in
 /// that unit.

@@ -22,7 +22,7 @@
 
 namespace cardan::turbines {
 
-/// How a model becomes one with constant matrices.
+/// Way in which a model becomes one with constant matrices.
 enum class LinearForm : std::uint8_t {
     multi_blade,  ///< three and more equal blades: in multi-blade coordinates, averaged over the azimuth
     constant,     ///< it is constant as it is: standstill, no blades

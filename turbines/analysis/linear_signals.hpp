@@ -1,5 +1,4 @@
-/// @file
-/// What linear models of a machine have as inputs and outputs, by name.
+/// @file Inputs and outputs of a machine's linear models, by name.
 #pragma once
 
 #include "solvers/control/state_space.hpp"
@@ -10,15 +9,15 @@
 
 namespace cardan::turbines {
 
-/// Of joints that are free "generator torque" (N m on the fast shaft, positive: brakes), "yaw moment", "blade 1 pitch
-/// moment" ... (N m, positive toward feather); "thrust" (N, downwind along the shaft) and "rotor torque" (N m) on the
-/// hub.
+/// Inputs of a machine's linear models: of joints that are free "generator torque" (N m on the fast shaft, positive:
+/// brakes), "yaw moment", "blade 1 pitch moment" ... (N m, positive toward feather); "thrust" (N, downwind along the
+/// shaft) and "rotor torque" (N m) on the hub.
 std::vector<solvers::LinearInput> linear_inputs(const Turbine& turbine, solvers::RotorSpin spin);
 
 /// Channels: speeds, motions of the tower, loads and pitch angles, as far as the machine has them.
 std::vector<std::string> linear_outputs(const Turbine& turbine);
 
-/// Those that are named, in that order; no names: all.
+/// Inputs of the given names, in that order; no names: all.
 /// @throws InputError for a name that there is not, with those that there are
 std::vector<solvers::LinearInput> named_inputs(std::vector<solvers::LinearInput> all,
                                                const std::vector<std::string>& names);

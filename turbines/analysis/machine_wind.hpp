@@ -24,13 +24,13 @@ SteadyWind wind_profile(const Turbine& turbine, const Machine& machine, const Ai
 /// @throws InputError for a result without wind; ParseError, FileError
 Wind wind_of(const WindSource& source, const SteadyWind& profile, const Report& report = {});
 
-/// How the air follows a motion: "wake dynamic, profiles unsteady".
+/// The air's unsteadiness in words: "wake dynamic, profiles unsteady".
 /// @param wake  name_of(Wake), or "none"
 std::string air_in_words(std::string_view wake, bool airfoils_unsteady);
-/// Of operating points and time histories: induced velocities, if there are any, and coefficients are always in
-/// equilibrium with the motion.
+/// The air of operating points and time histories in words: induced velocities, if there are any, and coefficients are
+/// always in equilibrium with the motion.
 std::string air_in_equilibrium(const Aerodynamics& air);
-/// For the description of a run.
+/// Settings of the air in words, for the description of a run.
 std::string in_words(const AirSettings& settings);
 
 }  // namespace cardan::turbines

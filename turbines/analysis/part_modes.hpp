@@ -15,14 +15,14 @@
 namespace cardan::turbines {
 
 struct PartModesSettings {
-    /// Of the blade, rising, rad/s; empty: standstill and, if the machine names one, its speed.
+    /// Rotor speeds for the blade, rising, rad/s; empty: standstill and, if the machine names one, its speed.
     std::vector<double> rotor_speeds = {};
     MachineSettings machine = {};
     /// Highest, Hz; none: for each part 1.3 times its third frequency at rest.
     std::optional<double> max_frequency_hz = std::nullopt;
 };
 
-/// Without gravity. Empty: the machine lacks what the part needs, or it does not bend.
+/// Modes of a clamped part without gravity. Empty: the machine lacks what the part needs, or it does not bend.
 struct PartModes {
     std::optional<solvers::Campbell> blade;  ///< the first one, clamped at its root to a rigid hub
     std::optional<solvers::Campbell> tower;  ///< at rest, clamped at its foot, without what it carries

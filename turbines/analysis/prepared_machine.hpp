@@ -39,15 +39,14 @@ void keep_elements(const Mesh& mesh, MachineSettings& settings);
 /// @throws InputError for what is not finite
 double rotor_speed_of(const std::optional<double>& asked, const Machine& machine, const char* field,
                       const Report& report = {});
-/// Likewise the pitch at a rotor speed, rad.
+/// Pitch at a rotor speed, given or the machine's, rad.
 double pitch_at_speed(const std::optional<double>& asked, const Machine& machine, double rotor_speed,
                       const Report& report = {});
 
 /// Free, or prescribed where the generator is locked.
 solvers::RotorSpin rotor_spin(const Machine& machine);
 
-/// Of a machine whose foundation is left out, for titles: "tower clamped at its foot, substructure left out"; else
-/// empty.
+/// Text on a foundation that is left out, for titles: "tower clamped at its foot, substructure left out"; else empty.
 std::string foundation_in_words(const Machine& machine);
 /// Is the foundation that its source names left out?
 bool is_clamped(const Machine& machine);

@@ -1,5 +1,4 @@
-/// @file
-/// What an analysis has to say beside its result.
+/// @file Remarks of an analysis beside its result.
 #pragma once
 
 #include "turbines/readers/turbine_file.hpp"

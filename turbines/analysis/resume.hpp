@@ -1,5 +1,4 @@
-/// @file
-/// How a run goes on from its file: only if it is the same run.
+/// @file Resuming a run from its file: only if it is the same run.
 #pragma once
 
 #include "solvers/time/integrate.hpp"

@@ -1,5 +1,4 @@
-/// @file
-/// What a caller may set about the analyses of a machine: every field with its default. SI units and radians.
+/// @file Settings of the analyses of a machine: every field with its default. SI units and radians.
 ///
 /// All fields have names, so that only what differs is written, at once, in the order that the compiler asks for, or
 /// one by one in any order:
@@ -42,7 +41,7 @@ enum class TowerDof : std::uint8_t { bends, fore_aft, side_side, rigid };
 enum class BladeDof : std::uint8_t { bend, rigid };
 ///@}
 
-/// What of the machine is to be otherwise than its source says; what is not given stays.
+/// Values of a machine that replace those of its source; what is not given stays.
 struct MachineSettings {
     std::optional<double> pitch = {};  ///< of all blades, toward feather, rad; none: the machine's at the rotor speed
     std::optional<GeneratorDof> generator = {};
@@ -54,7 +53,7 @@ struct MachineSettings {
     /// Damping ratio of the first flap mode of every blade, clamped and at rest, and of the first bending mode of the
     /// tower, stiffness-proportional, in the place of all structural damping that they have.
     std::optional<double> blade_damping = {}, tower_damping = {};
-    /// Of the springs in the pitch bearings, N m/rad, and of dampers beside them, N m s/rad.
+    /// Stiffness of the springs in the pitch bearings, N m/rad, and damping beside them, N m s/rad.
     std::optional<double> pitch_stiffness = {}, pitch_damping = {};
     /// Beam elements; none: as many as it takes, converged_mesh().
     std::optional<int> blade_elements = {}, tower_elements = {};
@@ -85,7 +84,7 @@ public:
     template <std::convertible_to<std::filesystem::path> Path>
     WindSource(const Path& file)  // NOLINT(google-explicit-constructor)
         : what_(std::filesystem::path(file)) {}
-    /// As it is, whatever AirSettings say.
+    /// Takes a wind as it is, whatever AirSettings say.
     WindSource(Wind wind) : what_(std::move(wind)) {}  // NOLINT(google-explicit-constructor)
 
     /// No air.
@@ -102,7 +101,7 @@ private:
     std::variant<double, std::filesystem::path, Wind, std::monostate> what_;
 };
 
-/// What sets pitch and generator torque in a run in time.
+/// Controller of pitch and generator torque in a run in time.
 struct Controller {
     /// of_machine: that of the model's own run (ModelRun): its library, or the baseline controller where that cannot be
     /// loaded here; none if it has no such run.
@@ -118,9 +117,10 @@ struct Controller {
     std::optional<double> generator_efficiency = {};
     /// A demand for every blade, of a library; none: as the machine says (Ptch_Cntrl of ServoDyn), else collective.
     std::optional<bool> individual_pitch = {};
-    /// Without a frequency of the pitch: springs of the machine's pitch bearings, or the pitch is prescribed.
+    /// Actuators; without a frequency of the pitch: springs of the machine's pitch bearings, or the pitch is
+    /// prescribed.
     ActuatorOptions actuators = {};
-    /// Of the baseline controller; none: baseline_controller(). Their period is `period`.
+    /// Parameters of the baseline controller; none: baseline_controller(). Their period is `period`.
     std::optional<VariableSpeedParameters> parameters = {};
 
     static Controller none() { return {.kind = Kind::none}; }
@@ -151,17 +151,18 @@ enum class SimulationStart : std::uint8_t {
     undeformed  ///< straight
 };
 
-/// Of a Simulation. A machine from a model that describes a run in time (Machine::run), as OpenFAST's main files do,
-/// runs that: what is not given is the model's. In another wind under a controller the start is as the machine runs in
-/// it (MachineOperation, by a rotor that does not bend); else it has the machine's rotor speed and the pitch at that.
+/// Settings of a Simulation. A machine from a model that describes a run in time (Machine::run), as OpenFAST's main
+/// files do, runs that: what is not given is the model's. In another wind under a controller the start is as the
+/// machine runs in it (MachineOperation, by a rotor that does not bend); else it has the machine's rotor speed and the
+/// pitch at that.
 struct SimulationSettings {
     std::optional<double> rotor_speed = {};  ///< at the start, rad/s; none: see below
     std::optional<WindSource> wind = {};     ///< none: the model's; without one there is no air
     AirSettings air = {};
     Controller controller = {};
-    /// Without a controller: torque of the generator on its own shaft, N m, positive brakes positive rotation, and its
-    /// rise with the speed of that shaft above that at the start, N m s/rad. With one: the torque at the start.
-    /// None: that which balances the air in steady rotation, without wind 0.
+    /// Torque of the generator without a controller, on its own shaft, N m, positive brakes positive rotation, and its
+    /// rise with the speed of that shaft above that at the start, N m s/rad. With one: the torque at the start. None:
+    /// that which balances the air in steady rotation, without wind 0.
     std::optional<double> generator_torque = {};
     double generator_slope = 0;
     RotorTorque rotor_torque = {};
@@ -180,8 +181,8 @@ struct SimulationSettings {
     std::function<bool()> cancelled = {};
 };
 
-/// How a machine runs over the wind: its schedule (MachineOperation::schedule, read_schedule()), or variable speed, if
-/// it has none or anything is set here; none: as the machine says.
+/// Operation of a machine over the wind: its schedule (MachineOperation::schedule, read_schedule()), or variable speed,
+/// if it has none or anything is set here; none: as the machine says.
 struct OperationSettings {
     std::optional<double> rated_power = {};        ///< of the air on the rotor, W
     std::optional<double> rated_rotor_speed = {};  ///< from rated wind on, rad/s
@@ -189,13 +190,13 @@ struct OperationSettings {
     std::optional<double> tip_speed_ratio = {};    ///< below rated power; none: also that of the best power coefficient
 };
 
-/// How the air follows a vibration.
+/// Settings of how the air follows a vibration.
 struct VibrationSettings {
     Wake wake = Wake::dynamic;      ///< induced velocities; without AirSettings::induction there are none
     bool unsteady_airfoils = true;  ///< coefficients lag where the airfoils' data have lags
 };
 
-/// Of campbell(): over rotor speeds, or with `winds` in the air, over those.
+/// Settings of campbell(): over rotor speeds, or with `winds` in the air, over those.
 struct CampbellSettings {
     /// rad/s, >= 0, taken in rising order and each once; empty: from 0 to 1.2 times the machine's in 12 steps. None
     /// beside `winds`.
@@ -228,7 +229,7 @@ struct CampbellSettings {
     std::function<bool()> cancelled = {};
 };
 
-/// Of linear_model(): at a rotor speed, or with a wind at the operating point in it.
+/// Settings of linear_model(): at a rotor speed, or with a wind at the operating point in it.
 struct LinearModelSettings {
     std::optional<double> rotor_speed = {};  ///< >= 0, rad/s; none: the machine's; with a wind the operating point's
     std::optional<double> wind = {};         ///< at the hub's height, m/s; the machine runs as `operation` says
@@ -258,7 +259,7 @@ struct LinearModelSettings {
     std::function<bool()> cancelled = {};
 };
 
-/// Of Simulation::record().
+/// Settings of Simulation::record().
 struct RecordSettings {
     /// Time that is simulated, from the start of the simulation, s; none: the model's (ModelRun), else 20.
     std::optional<double> duration = {};

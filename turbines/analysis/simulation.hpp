@@ -21,7 +21,7 @@
 
 namespace cardan::turbines {
 
-/// What was recorded of a run.
+/// Recording of a run.
 struct Recording {
     solvers::History history;       ///< of the channels in RecordSettings::kept
     bool complete = false;          ///< false: it was cancelled before
@@ -49,22 +49,22 @@ public:
     /// @throws InputError for settings out of range, and for a file to go on with that is of another run, or under a
     /// library as controller, which keeps its memory to itself; FileError; NumericalError if the integration fails
     Recording record(const std::filesystem::path& file, const RecordSettings& settings = {});
-    /// Likewise in memory alone.
+    /// Records a run in memory alone.
     Recording record(const RecordSettings& settings = {});
 
-    /// That record() would simulate, s.
+    /// Duration that record() would simulate, s.
     double duration(const RecordSettings& settings = {}) const;
 
-    /// As it runs, with the settings.
+    /// The machine as it runs, with the settings.
     const Machine& machine() const;
-    /// With what was not given: rotor speed, pitch, elements, individual pitch.
+    /// Settings with what was not given: rotor speed, pitch, elements, individual pitch.
     const SimulationSettings& settings() const;
-    /// With air, controller and loads.
+    /// The assembled machine with air, controller and loads.
     const Turbine& turbine() const;
     const std::vector<Channel>& channels() const;
     /// "NREL 5 MW, no gravity"
     const std::string& title() const;
-    /// What it had to say so far.
+    /// Remarks of the simulation so far.
     const std::vector<Remark>& remarks() const;
     const solvers::Integrator& integrator() const;
 

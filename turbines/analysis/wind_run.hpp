@@ -45,7 +45,7 @@ struct WindRun {
     bool complete = false;                   ///< all winds were tried
 };
 
-/// Without points as yet.
+/// Prepares a run over winds, without points as yet.
 /// @throws InputError for a machine without airfoils, for one that says neither schedule nor rated power, and for winds
 /// that its schedule does not have
 WindRun wind_run(const Machine& source, const WindRunOptions& options);
@@ -65,7 +65,7 @@ struct FinerPoint {
 };
 FinerPoint finer_point(const WindRun& run, const Operation& at);
 
-/// With the lags that the airfoils have.
+/// Options of an aeroelastic diagram, with the lags that the airfoils have.
 AeroelasticOptions aeroelastic_options(const VibrationSettings& settings, const Aerodynamics& air);
 /// air_in_words()
 std::string in_words(const AeroelasticOptions& options, const Aerodynamics& air);

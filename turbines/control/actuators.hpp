@@ -37,10 +37,10 @@ void give_pitch_drives(TurbineDescription& machine);
 /// @param frequency  rad/s;  @param damping  ratio of that mode
 void give_pitch_springs(TurbineDescription& machine, double frequency = 2 * pi * 30, double damping = 0.1);
 
-/// How the actuators follow their demands.
+/// Options of how the actuators follow their demands.
 struct ActuatorOptions {
-    /// Of actuators of the pitch, of second order, in series with the springs of the bearings: rad/s. At 2 Hz one lags
-    /// behind the speed loop of a large machine (0.6 rad/s) by 4 deg. 0: there are none.
+    /// Natural frequency of the pitch actuators, of second order and in series with the springs of the bearings: rad/s.
+    /// At 2 Hz one lags behind the speed loop of a large machine (0.6 rad/s) by 4 deg. 0: there are none.
     double pitch_frequency = 0;
     double pitch_damping = 0.7;          ///< ratio
     double largest_pitch_rate = 0;       ///< of the actuators, rad/s; 0: no limit
@@ -75,23 +75,23 @@ public:
     /// spring, and for actuators of a pitch that is prescribed
     explicit ActuatedForces(const Turbine& turbine, ActuatorOptions options = {});
 
-    /// With demands that are inputs: "torque demand" and "pitch demand", or individually "blade 1 pitch demand" ...;
-    /// they start at `torque` and the pitch settings.
+    /// Forces with actuators whose demands are inputs: "torque demand" and "pitch demand", or individually "blade 1
+    /// pitch demand" ...; they start at `torque` and the pitch settings.
     /// @param torque  of the generator at the start, N m
     /// @param more    added to the torque demand, N m: a damper of the drive train
     ForceSet with_inputs(double torque, bool individual = false, const ControlSignal& more = signal::constant(0)) const;
-    /// With any demands, e.g. those of variable_speed_equivalent(); its blocks are to be added.
+    /// Forces with actuators of any demands, e.g. those of variable_speed_equivalent(); its blocks are to be added.
     /// @throws InputError for a number of pitch demands that is neither 1 nor that of the blades, and for a pitch that
     /// is prescribed, which only a sampled controller can set
     ForceSet with_demands(const ActuatorDemands& demands, double torque) const;
 
     /// Names of these inputs: of the pitch, then that of the torque.
     std::vector<std::string> inputs(bool individual = false) const;
-    /// Of the blades whose pitch is prescribed: SampledController::drives.
+    /// Prescribed motions of the blades whose pitch is prescribed: SampledController::drives.
     std::vector<InputDrive> drives(bool individual = false) const;
-    /// How the blades follow, in a line: "pitch prescribed ...", "blade 1: ..., blade 2: ..." if they differ.
+    /// The blades' actuators in a line: "pitch prescribed ...", "blade 1: ..., blade 2: ..." if they differ.
     std::string in_words() const;
-    /// What is recorded of them: the inputs and, if the actuator acts on the shaft, "generator torque" (GenTq),
+    /// Channels of the actuators: the inputs and, if the actuator acts on the shaft, "generator torque" (GenTq),
     /// "generator power" (mechanical) and "electrical power" (GenPwr).
     /// @param efficiency  of the generator: electrical over mechanical power
     ChannelGroup channels(const System& system, bool individual, double efficiency = 1) const;

@@ -7,8 +7,9 @@
 
 namespace cardan::turbines {
 
-/// Of the generator, at 690 V and 50 Hz: by the breakdown torque and slip of the data set; voltage, division of the
-/// leakage, magnetising reactance and stator resistance are assumed, since nothing has been published about them.
+/// Equivalent circuit of the generator, at 690 V and 50 Hz: by the breakdown torque and slip of the data set; voltage,
+/// division of the leakage, magnetising reactance and stator resistance are assumed, since nothing has been published
+/// about them.
 EquivalentCircuit wt600_equivalent_circuit();
 /// 690 V, 50 Hz.
 Grid wt600_grid();
@@ -23,7 +24,7 @@ struct ElectricWt600Options {
     std::optional<double> running = {};
 };
 
-/// As Wt600Operation, with the circuit in place of the generator's curve.
+/// Operation as Wt600Operation, with the circuit in place of the generator's curve.
 struct ElectricWt600 {
     Turbine turbine;
     InductionGenerator generator;

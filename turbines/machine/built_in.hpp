@@ -17,8 +17,8 @@ struct BuiltInMachine {
 /// All there are.
 std::vector<BuiltInMachine> built_in_machines();
 
-/// With air and operation, as far as its source has them. Its beams are tables, so that files hold what is computed.
-/// None: there is no machine of that name.
+/// A built-in machine with air and operation, as far as its source has them. Its beams are tables, so that files hold
+/// what is computed. None: there is no machine of that name.
 std::optional<Machine> built_in_machine(const std::string& name);
 
 }  // namespace cardan::turbines

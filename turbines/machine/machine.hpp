@@ -15,7 +15,7 @@
 
 namespace cardan::turbines {
 
-/// What the air does to a machine, as far as it is the machine's: airfoils, tower and nacelle, how induction is found.
+/// Aerodynamics of a machine, without the wind: airfoils, tower and nacelle, options of the induction.
 struct Aerodynamics {
     AeroBlade blade;  ///< of all blades
     RotorAirOptions options = {};
@@ -25,7 +25,7 @@ struct Aerodynamics {
     /// In the place of the blade's polars, one for each, where the flow lags behind the motion
     /// (AirLagOptions::profiles); empty: there are no data of it.
     std::vector<UnsteadyProfile> unsteady_airfoils = {};
-    /// Of the aerodynamic centres behind the pitch axis, m, for all that asks for the torsion of the blade, where
+    /// Sweep of the aerodynamic centres behind the pitch axis, m, for all that asks for the torsion of the blade, where
     /// `blade` has them on that axis for the sake of comparison; empty: those of `blade` hold.
     std::vector<double> torsion_sweep = {};
     std::vector<FileNote> notes = {};  ///< of the reader
@@ -34,17 +34,17 @@ struct Aerodynamics {
     AeroBlade torsion_blade() const;
 };
 
-/// Where a machine stands, as its model says.
+/// Site of a machine, as its model says.
 struct Site {
     double density = 1.225;                    ///< of the air, kg/m^3, where a file of airfoils says "default"
-    double viscosity = standard_viscosity;     ///< likewise, kinematic, m^2/s
+    double viscosity = standard_viscosity;     ///< of the air, kinematic, m^2/s, where a file says "default"
     double gravity = units::standard_gravity;  ///< m/s^2, downward, in analyses with gravity
     /// Of the tower's foot above the ground or the still water, m, as the model counts heights; none: as the machine
     /// stands.
     std::optional<double> tower_foot = std::nullopt;
 };
 
-/// How a machine runs, as far as its source says so; 0 and empty: it does not.
+/// Operation of a machine, as far as its source says so; 0 and empty: it does not.
 struct MachineOperation {
     double rotor_speed = 0;                    ///< rated or, without a controller, initial one, rad/s
     std::string rotor_speed_source = {};       ///< a keyword and its file
@@ -78,7 +78,7 @@ struct Machine {
 
 /// A description, and what it says of the rotor speed.
 Machine machine_of(TurbineDescription description);
-/// What the reader of a model returns.
+/// The machine of what a reader of a model returns.
 Machine machine_of(TurbineFile file);
 
 /// Tower and nacelle of its air, on the foot of the tower: Site::tower_foot, else that of the machine at rest.

@@ -25,7 +25,7 @@ Machine read_machine(const std::string& machine, const std::vector<ModelAddition
 /// @throws ParseError, FileError, InputError
 Aerodynamics read_air(const std::filesystem::path& path, const Machine& machine);
 
-/// How a machine runs over the wind: CSV with the columns wind[m/s],rotor_speed[rpm],pitch[deg].
+/// Reads a schedule of rotor speed and pitch over the wind: CSV with the columns wind[m/s],rotor_speed[rpm],pitch[deg].
 /// @throws ParseError, FileError
 std::vector<Operation> read_schedule(const std::filesystem::path& path);
 

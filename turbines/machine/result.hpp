@@ -1,5 +1,4 @@
-/// @file
-/// What results hold of how they were made: HDF5 files of any kind, those of histories that are being written as well.
+/// @file Record of how results were made: HDF5 files of any kind, those of histories that are being written as well.
 #pragma once
 
 #include <filesystem>

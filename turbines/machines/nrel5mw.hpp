@@ -30,13 +30,13 @@ enum class Nrel5mwVariant : std::uint8_t {
 /// "report", "fast", "beamdyn".
 std::string_view variant_name(Nrel5mwVariant variant);
 
-/// Which tower the machine stands on.
+/// Tower that the machine stands on.
 enum class Nrel5mwTower : std::uint8_t {
     land_based,  ///< 87.6 m from the ground up
     oc3_hywind   ///< 77.6 m on the foot of the OC3-Hywind spar, see oc3_hywind.hpp; same hub height
 };
 
-/// How the data are used.
+/// Options of how the data are used.
 struct Nrel5mwOptions {
     Nrel5mwBladeOptions blade = {};
     /// Pitch joints with the actuator's spring and damper (which the report gives for ADAMS only); otherwise the pitch
@@ -53,7 +53,8 @@ Nrel5mwOptions nrel5mw_options(Nrel5mwVariant variant);
 /// more in higher ones as their frequencies rise.
 /// @throws InputError for an option out of range
 TurbineDescription nrel5mw_description(const Nrel5mwOptions& options = {});
-/// As above, from a folder with nrel5mw_blade.csv, nrel5mw_tower.csv (or oc3_hywind_tower.csv) and nrel5mw_turbine.csv.
+/// The description, from a folder with nrel5mw_blade.csv, nrel5mw_tower.csv (or oc3_hywind_tower.csv) and
+/// nrel5mw_turbine.csv.
 /// @throws FileError, ParseError, InputError
 TurbineDescription nrel5mw_description(const std::filesystem::path& folder, const Nrel5mwOptions& options = {});
 

@@ -13,7 +13,8 @@
 
 namespace cardan::turbines {
 
-/// How the blade table is used. The defaults give the blade of the reference frequencies in docs/nrel5mw_blade.md.
+/// Options of how the blade table is used. The defaults give the blade of the reference frequencies in
+/// docs/nrel5mw_blade.md.
 struct Nrel5mwBladeOptions {
     /// Factor on mass and sectional inertia. The report raises the table's masses by 4.536 % to reach the nominal mass
     /// of the blade (AdjBlMs of the FAST input file, blade_mass_adjust_factor in nrel5mw_turbine.csv).
@@ -40,7 +41,7 @@ struct Nrel5mwBlade {
 /// The built-in table.
 /// @throws InputError for an option out of range
 Nrel5mwBlade nrel5mw_blade(const Nrel5mwBladeOptions& options = {});
-/// As above, from a folder with nrel5mw_blade.csv.
+/// The blade, from a folder with nrel5mw_blade.csv.
 /// @throws FileError, ParseError, InputError
 Nrel5mwBlade nrel5mw_blade(const std::filesystem::path& folder, const Nrel5mwBladeOptions& options = {});
 

@@ -1,5 +1,4 @@
-/// @file
-/// Where the parts of the NREL 5 MW machine are: turbines/data/nrel5mw_turbine.csv.
+/// @file Positions of the parts of the NREL 5 MW machine: turbines/data/nrel5mw_turbine.csv.
 #pragma once
 
 namespace cardan::turbines {

@@ -16,7 +16,7 @@ namespace cardan::turbines {
 /// low-frequency limit; in heave it is an estimate. No radiation damping, no viscous drag. All six coordinates are
 /// free.
 PlatformDescription oc3_hywind();
-/// As above, from a folder with oc3_hywind_platform.csv.
+/// The platform, from a folder with oc3_hywind_platform.csv.
 /// @throws FileError, ParseError; InputError, also if the displaced volume differs from that of the hull
 PlatformDescription oc3_hywind(const std::filesystem::path& folder);
 
@@ -24,11 +24,11 @@ PlatformDescription oc3_hywind(const std::filesystem::path& folder);
 /// gravity: its weight keeps it upright.
 /// @param options  as nrel5mw_description() but for the tower
 TurbineDescription nrel5mw_oc3_hywind_description(Nrel5mwOptions options = {});
-/// As above, from a folder.
+/// The machine on its platform, from a folder.
 /// @throws FileError, ParseError, InputError
 TurbineDescription nrel5mw_oc3_hywind_description(const std::filesystem::path& folder, Nrel5mwOptions options = {});
 
-/// That description and the elements of one variant.
+/// The machine on its platform, assembled with the elements of one variant.
 /// @param role  of all six coordinates: free, or driven
 /// @param gravity  a free spar needs it: its weight keeps it upright
 Turbine nrel5mw_on_oc3_hywind(CoordinateRole role, Nrel5mwVariant variant = Nrel5mwVariant::report,

@@ -15,7 +15,7 @@ namespace cardan::turbines {
 
 /// Table I of the paper.
 TurbineDescription teetered_description();
-/// As above, from a folder with teetered.csv.
+/// The description, from a folder with teetered.csv.
 /// @throws FileError, ParseError, InputError
 TurbineDescription teetered_description(const std::filesystem::path& folder);
 /// Tower stiffnesses as multiples of the blade's: fore-aft EI of flap EI, lateral EI of lag EI, GJ of GJ (Table III:

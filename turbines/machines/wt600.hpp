@@ -13,7 +13,7 @@ namespace cardan::turbines {
 
 /// The built-in data set.
 TurbineDescription wt600_description();
-/// As above, from a folder with wt600_blade.csv and wt600_turbine.csv.
+/// The description, from a folder with wt600_blade.csv and wt600_turbine.csv.
 /// @throws FileError, ParseError, InputError
 TurbineDescription wt600_description(const std::filesystem::path& folder);
 

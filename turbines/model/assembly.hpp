@@ -14,7 +14,7 @@
 
 namespace cardan::turbines {
 
-/// Where to find parts in the tree of a machine, for loads and channels. Parts that a machine lacks are empty.
+/// Parts in the tree of a machine, for loads and channels. Parts that a machine lacks are empty.
 struct MachineLayout {
     /// "platform surge" ... "platform yaw"; its frame has its origin at the reference point, x downwind, z up.
     std::optional<MovingBase> platform;
@@ -49,7 +49,7 @@ public:
     const MachineLayout& layout() const { return *layout_; }
     /// Numbers of elements; where one of them was not given, also how far the frequencies have converged.
     const Mesh& mesh() const { return mesh_; }
-    /// The same machine with other forces: usually a copy of forces() with generator, brake or loads added.
+    /// A copy of the machine with other forces: usually a copy of forces() with generator, brake or loads added.
     /// @param remark  describes the forces, for the description stored in files
     /// @throws InputError as System does
     Turbine with_forces(const ForceSet& forces, const std::string& remark = {}) const;

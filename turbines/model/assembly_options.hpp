@@ -1,5 +1,4 @@
-/// @file
-/// How a description is meshed and assembled, with all defaults.
+/// @file Options by which a description is meshed and assembled, with all defaults.
 #pragma once
 
 #include "elements/cardan_beam/cardan_beam.hpp"
@@ -16,9 +15,9 @@ struct ShaftBeam {
     double mass = 1;  ///< kg/m; not zero: nothing else gives the tilt joint an inertia of its own
 };
 
-/// What numbers of elements that are not given have to achieve: see converged_mesh().
+/// Requirements on numbers of elements that are not given: see converged_mesh().
 struct MeshOptions {
-    /// Of a frequency, relative: what it may change by with twice as many elements; > 0.
+    /// Change of a frequency that twice as many elements may cause, relative; > 0.
     double tolerance = 2e-3;
     double largest_hz = 0;   ///< frequencies up to here count, Hz; 0: usual_frequency()
     double rotor_speed = 0;  ///< highest of the analysis, rad/s: the blades' centrifugal limit is at least twice that;
@@ -26,11 +25,11 @@ struct MeshOptions {
     int most = 24;           ///< elements per beam, >= 1
 };
 
-/// How a description is meshed and analysed.
+/// Options by which a description is meshed and analysed.
 struct AssemblyOptions {
     /// Elements of equal length of the tower and of every blade, 1 ... 1000; empty: as many as it takes.
     std::optional<int> tower_elements = std::nullopt, blade_elements = std::nullopt;
-    /// How many it takes.
+    /// Requirements on the numbers of elements.
     MeshOptions mesh = {};
     std::optional<double> delta =
         {};  ///< hinge position in tower and blades; empty: suits the partition; see CardanBeamOptions

@@ -1,5 +1,4 @@
-/// @file
-/// How a description is assembled, as text for the description stored with every result.
+/// @file Settings of an assembly, as text for the description stored with every result.
 #pragma once
 
 #include "turbines/model/assembly.hpp"

@@ -16,7 +16,7 @@
 
 namespace cardan::turbines {
 
-/// What holds a joint of a machine: bearings, drives, shafts. One that was not given is refused by name on assembly.
+/// Support of a joint of a machine: bearings, drives, shafts. One that was not given is refused by name on assembly.
 struct Bearing {
     enum class Hold : std::uint8_t {
         spring,  ///< spring and damper
@@ -40,7 +40,7 @@ struct TowerDescription {
     /// No coordinates: it stands undeformed, and its mass stays. Its stiffness and damping are not used, so that a
     /// machine can be made rigid here and elastic again; a line without sections is massless.
     bool rigid = false;
-    /// It does not bend in this direction: its coordinates stay at zero.
+    /// The tower does not bend in this direction: its coordinates stay at zero.
     bool held_fore_aft = false, held_side_side = false;
 };
 
@@ -69,7 +69,7 @@ struct DriveTrainDescription {
     /// What else turns with the generator's coordinate: x downwind along the shaft, z up at azimuth 0, origin on the
     /// tower axis.
     RigidInertia shaft;
-    /// Of the generator's azimuth. Free: it turns as torques make it. Driven: it is prescribed, as of a rotor at
+    /// Role of the generator's azimuth. Free: it turns as torques make it. Driven: it is prescribed, as of a rotor at
     /// constant speed or a locked one. AssemblyOptions::spin goes before it.
     CoordinateRole spin = CoordinateRole::free;
 };
@@ -89,7 +89,7 @@ struct HubDescription {
     double radius = 0;  ///< blade roots along the blade axis, m
     std::optional<TeeterDescription> teeter;
 
-    /// It turns about the shaft as its own mass does: nothing in it depends on the azimuth.
+    /// Whether the hub is balanced about the shaft: nothing in it depends on the azimuth.
     bool is_balanced() const;
 };
 
@@ -99,9 +99,9 @@ inline Mat3 hub_axes() {
     return (Mat3() << Vec3::UnitZ(), -Vec3::UnitY(), Vec3::UnitX()).finished();
 }
 
-/// What turns a blade about its pitch bearing: an actuator moves one end of a rigid push rod along a straight line of
-/// the hub, the other end turns a crank on the blade. A loop: the angle follows the stroke. All in the axes before the
-/// pitch joint, x along the blade, z downwind, origin at the root.
+/// Linkage that turns a blade about its pitch bearing: an actuator moves one end of a rigid push rod along a straight
+/// line of the hub, the other end turns a crank on the blade. A loop: the angle follows the stroke. All in the axes
+/// before the pitch joint, x along the blade, z downwind, origin at the root.
 struct PitchLinkage {
     Vec3 crank_pin = Vec3::Zero();     ///< on the blade, at no pitch, m
     Vec3 actuator_pin = Vec3::Zero();  ///< of the actuator at no stroke, m
@@ -130,14 +130,14 @@ struct BladeDescription {
     bool rigid = false;
 };
 
-/// What the tower stands on in the source of a description that does not hold it: the tower is clamped at its foot
-/// unless the description gets a platform.
+/// Foundation that the source of a description has and the description has not: the tower is clamped at its foot unless
+/// the description gets a platform.
 struct MissingFoundation {
     std::string name;   ///< "floating platform", "substructure"; empty: nothing is missing
     std::string where;  ///< the foot of the tower is, with the source: "10 m above the water (TowerBsHt)"
 };
 
-/// What the source of a description does not say although no machine can do without it. The description holds zero, or
+/// Entry that the source of a description lacks although no machine can do without it. The description holds zero, or
 /// an empty line, in its place.
 struct MissingEntry {
     enum class Part : std::uint8_t { tower, nacelle, hub, blade };
@@ -148,7 +148,7 @@ struct MissingEntry {
     std::string file = {};  ///< that lacks it
 };
 
-/// What is missing, and how it is given, in one line: "the model lacks: mass of the hub; remedy: --set KEY=MASS_kg".
+/// Missing entries, and how they are given, in one line: "the model lacks: mass of the hub; remedy: --set KEY=MASS_kg".
 std::string in_words(const std::vector<MissingEntry>& entries);
 
 struct TurbineDescription {
@@ -164,7 +164,7 @@ struct TurbineDescription {
     BladeDescription blade;  ///< all of them, but for those in `own_blades`
     /// Blades that differ from the others, by their number 1 ... `blades`; empty: that blade is missing.
     std::map<int, std::optional<BladeDescription>> own_blades = {};
-    /// What the tower stands on, prescribed or free: a floating platform, a shaking table; none: fixed to the ground.
+    /// Base of the tower, prescribed or free: a floating platform, a shaking table; none: fixed to the ground.
     std::optional<PlatformDescription> platform = std::nullopt;
     MissingFoundation missing_foundation = {};
     /// Empty: the machine is whole. Else only parts of it that are can be assembled: isolated_blade(),

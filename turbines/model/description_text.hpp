@@ -10,10 +10,10 @@ namespace cardan::turbines {
 
 /// Version of the format, the value of the key `cardan_turbine`.
 inline constexpr int description_yaml_version = 3;
-/// What begins a file in this format, and what stands before the machine at the end of Turbine::rotor().description.
+/// Comment that begins a file in this format, and stands before the machine at the end of Turbine::rotor().description.
 inline constexpr auto description_comment =
     "# A wind turbine, read by cardan. SI units, radians; axes and signs: docs/conventions.md.\n";
-/// What stands before the text of its source there.
+/// Text that stands before that of a machine's source in Turbine::rotor().description.
 inline constexpr auto source_of_machine = "\n\nread from (before changes made in a program)\n";
 inline constexpr auto computed_machine = "\n\nthe machine that was computed\n";
 
@@ -22,7 +22,8 @@ inline constexpr auto computed_machine = "\n\nthe machine that was computed\n";
 /// @throws InputError for NaN, for beam lines without a table (see table_of(); sampled() makes one), and for a machine
 /// that is not whole (TurbineDescription::missing)
 std::string to_yaml(const TurbineDescription& description);
-/// As to_yaml(), for documentation: lines without a table are written as sampled(), or by name only.
+/// Text of a description as to_yaml(), for documentation: lines without a table are written as sampled(), or by name
+/// only.
 /// @throws InputError for NaN
 std::string description_text(const TurbineDescription& description);
 /// @throws FileError, InputError

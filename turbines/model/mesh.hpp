@@ -1,5 +1,5 @@
-/// @file
-/// How many beam elements a machine needs: as many as it takes until more of them do not move its frequencies.
+/// @file Number of beam elements that a machine needs: as many as it takes until more of them do not move its
+/// frequencies.
 ///
 /// The change from n to twice as many elements is, for an order of convergence of two or more, at least three quarters
 /// of the error with n. Frequencies are compared in their order, undamped, at rest and without gravity: in rotation
@@ -29,7 +29,7 @@ struct Mesh {
 /// than 0.09 % (that at 5.643 Hz, of 14)", or "..., as given", or "..., too many to be compared with twice as many".
 std::string in_words(const Mesh& mesh);
 
-/// The same options with the numbers of a mesh: for further assemblies of a description without another search.
+/// Options with the numbers of a mesh: for further assemblies of a description without another search.
 AssemblyOptions with_elements(AssemblyOptions options, const Mesh& mesh);
 
 /// The fewest elements for which the frequencies of clamped blades and of the tower with what it carries converge, and
@@ -46,7 +46,7 @@ Mesh converged_mesh(const TurbineDescription& description, const AssemblyOptions
 std::vector<double> clamped_blade_hz(const TurbineDescription& description, const AssemblyOptions& options = {},
                                      int number = 1);
 
-/// Likewise of the tower, clamped at its foot, without what it carries.
+/// Natural frequencies of the tower, clamped at its foot, without what it carries.
 /// @throws InputError as isolated_tower() does
 std::vector<double> clamped_tower_hz(const TurbineDescription& description, const AssemblyOptions& options = {});
 

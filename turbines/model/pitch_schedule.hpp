@@ -1,5 +1,4 @@
-/// @file
-/// How far the blades of a machine may turn out of feather.
+/// @file Angles by which the blades of a machine may turn out of feather.
 #pragma once
 
 #include <vector>

@@ -55,7 +55,7 @@ struct PlatformDescription {
     void check(const std::string& machine = {}) const;
 };
 
-/// What add_platform() has added.
+/// Parts that add_platform() has added.
 struct PlatformFrames {
     MovingBase base;            ///< its frame has its origin at the reference point
     FrameId tower_foot;         ///< ground axes at rest

@@ -22,7 +22,7 @@ namespace cardan::turbines {
 /// @throws InputError unless s is finite and positive
 TurbineDescription scaled(const TurbineDescription& description, double s);
 
-/// Likewise for a beam.
+/// A beam scaled by s.
 BeamLine scaled(const BeamLine& line, double s);
 
 }  // namespace cardan::turbines

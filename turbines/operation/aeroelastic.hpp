@@ -15,8 +15,8 @@
 
 namespace cardan::turbines {
 
-/// How the induced velocities follow a vibration. A dynamic wake lies between the other two: frozen for what is much
-/// faster than 1 / (2 pi wake_time), quasi-steady for what is much slower.
+/// Way in which the induced velocities follow a vibration. A dynamic wake lies between the other two: frozen for what
+/// is much faster than 1 / (2 pi wake_time), quasi-steady for what is much slower.
 enum class Wake : std::uint8_t {
     frozen,        ///< they stay, section by section, at their means over a revolution
     quasi_steady,  ///< they are always in equilibrium with the loads
@@ -57,8 +57,8 @@ AeroelasticPoint aeroelastic(const WindOperation& operation, const WindPoint& po
 solvers::Campbell aeroelastic_campbell(const WindOperation& operation, std::span<const WindPoint> points,
                                        const AeroelasticOptions& air, solvers::CampbellOptions options);
 
-/// Likewise with operating points that are found one by one, each after the modes of the one before. Without any point
-/// the diagram is empty.
+/// Campbell diagram with operating points that are found one by one, each after the modes of the one before. Without
+/// any point the diagram is empty.
 /// @param next   null: there are no more; those that did not converge are left out
 /// @param count  of points, for CampbellOptions::progress
 solvers::Campbell aeroelastic_campbell(const WindOperation& operation, const std::function<const WindPoint*()>& next,

@@ -16,7 +16,7 @@
 
 namespace cardan::turbines {
 
-/// How a machine runs at a wind speed.
+/// Operation of a machine at a wind speed.
 struct Operation {
     double wind = 0;         ///< at the wind's reference height, m/s
     double rotor_speed = 0;  ///< rad/s
@@ -50,7 +50,7 @@ struct VariableSpeed {
 double best_tip_speed_ratio(const AeroBlade& blade, int blades, double cone, double pitch,
                             const RotorAirOptions& options = {});
 
-/// What a section of blade 1 feels, mean over a revolution.
+/// Flow and force at a section of blade 1, mean over a revolution.
 struct SectionMean {
     double position;                 ///< from the hub's centre, m
     double axial, tangential;        ///< a, a'
@@ -69,7 +69,7 @@ struct WindPoint : Outcome {
     /// States of the machine at equal steps of a revolution, blade 1 up first; one where nothing depends on the
     /// azimuth.
     std::vector<DynamicState> revolution = {};
-    /// Of a periodic state: its harmonics (PeriodicSteadyState), and what those left out would have to balance, over
+    /// Harmonics of a periodic state (PeriodicSteadyState), and what those left out would have to balance, over
     /// stiffness, rad or m. Empty: the state is constant.
     Matrix coefficients = {};
     double remainder = 0;
@@ -79,11 +79,11 @@ struct WindPoint : Outcome {
 struct WindOperationOptions {
     SteadyWind wind = {};  ///< its speed is replaced by that of the operation
     RotorAirOptions air = {};
-    /// Of a revolution. A state is constant only where the wind is uniform, the shaft level and held (a tower that
-    /// bends tilts it), and there is no gravity.
+    /// Number of harmonics of a revolution. A state is constant only where the wind is uniform, the shaft level and
+    /// held (a tower that bends tilts it), and there is no gravity.
     int harmonics = 6;
-    /// Of a revolution, for means and WindPoint::revolution. With a tower that changes the wind at least
-    /// MachineAir::least_azimuths(), and the harmonics are balanced at as many.
+    /// Number of azimuths of a revolution, for means and WindPoint::revolution. With a tower that changes the wind at
+    /// least MachineAir::least_azimuths(), and the harmonics are balanced at as many.
     int azimuths = 24;
     /// Called after every point; false: no further ones.
     std::function<bool(const WindPoint&)> progress = {};
@@ -110,7 +110,7 @@ public:
 
     /// The machine of a point, with the air, for channels and linearisation.
     Turbine machine(const Operation& operation) const;
-    /// Its air; and the machine as it is without air.
+    /// Air of the machine at an operating point.
     MachineAir air_at(const Operation& operation) const;
     const Turbine& machine_without_air() const { return *turbine_; }
     const TurbineDescription& description() const { return description_; }

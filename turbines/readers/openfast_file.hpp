@@ -74,7 +74,7 @@ public:
     bool flag(std::string_view keyword);
     bool flag_or(std::string_view keyword, bool otherwise);
     std::string word(std::string_view keyword);
-    /// What stands in place of a number may be the word "default".
+    /// A number, in the place of which the word "default" may stand.
     double number_or_default(std::string_view keyword, double otherwise);
     /// A path relative to the folder of this file; where there is none of this name, that of one in another case.
     std::filesystem::path path(std::string_view keyword);
@@ -99,14 +99,14 @@ public:
     /// @throws ParseError unless the row has so many numbers
     void require(const Row& row, std::size_t count, std::string_view what) const;
 
-    /// How many lines have the keyword.
+    /// Number of lines with the keyword.
     std::size_t count(std::string_view keyword) const;
-    /// Of a keyword that several parts have, that of one part, the first one being 0. All count as used.
+    /// Value of one part for a keyword that several parts have, the first part being 0. All count as used.
     double number_of(std::string_view keyword, std::size_t part);
     bool flag_of(std::string_view keyword, std::size_t part);
     std::filesystem::path path_of(std::string_view keyword, std::size_t part);
-    /// Of the first part alone, which ends at the first line with the keyword `end`: none if the keyword is not there,
-    /// or with the word "default".
+    /// Value of the first part alone, which ends at the first line with the keyword `end`: none if the keyword is not
+    /// there, or with the word "default".
     std::optional<double> number_before(std::string_view end, std::string_view keyword);
     /// The rows of numbers after the line with the keyword, as many as it says; headings are passed over.
     std::vector<Row> rows_after(std::string_view keyword, std::size_t part = 0);
@@ -117,14 +117,14 @@ public:
 
     /// Adds a note on the entry, which then counts as used.
     void note(std::string_view keyword, std::string why);
-    /// As note(), of a keyword that several parts have.
+    /// Notes a keyword that several parts have.
     void note_of(std::string_view keyword, std::size_t part, std::string why);
-    /// As note(), if the entry exists and its number differs from the one without effect.
+    /// Notes an entry if it exists and its number differs from the one without effect.
     void note_unless(std::string_view keyword, double neutral, std::string why);
-    /// As note() and note_unless(), of what the file asks for and the model does not have (FileNote::Kind::left_out).
+    /// Notes what the file asks for and the model does not have (FileNote::Kind::left_out).
     void left_out(std::string_view keyword, std::string why);
     void left_out_unless(std::string_view keyword, double neutral, std::string why);
-    /// Those of the functions above.
+    /// Notes added by the functions above.
     const std::vector<FileNote>& added_notes() const { return notes_; }
     /// Notes on unused entries: by groups, then one by one.
     std::vector<FileNote> notes(const std::vector<KeywordGroup>& groups) const;

@@ -1,5 +1,5 @@
-/// @file
-/// What the readers of model files return: a description, and a note on everything in the files that it does not hold.
+/// @file Results of the readers of model files: a description, and a note on everything in the files that it does not
+/// hold.
 #pragma once
 
 #include "elements/control/torque_law.hpp"
@@ -19,7 +19,7 @@ namespace cardan::turbines {
 /// for. Entries that are irrelevant for the structure (output, solver settings, aerodynamics) give one note per group
 /// that lists their keywords; line and value are then empty.
 struct FileNote {
-    /// What it means for results.
+    /// Meaning of a note for results.
     enum class Kind : std::uint8_t {
         otherwise,  ///< said here in another way, or taken from elsewhere
         left_out,   ///< the file asks for something that the model does not have
@@ -33,7 +33,7 @@ struct FileNote {
     std::string why;
     Kind kind = Kind::otherwise;
 
-    /// Of a group all that it lists.
+    /// Number of entries; of a group, all that it lists.
     std::size_t entries() const;
 };
 
@@ -50,16 +50,16 @@ struct FileDofs {
 
 /// Whether the generator turns freely, what bends of the tower, and whether all blades do.
 void set_dofs(const FileDofs& dofs, TurbineDescription& description);
-/// Of a description; the blades bend if its common blade does.
+/// Degrees of freedom of a description; the blades bend if its common blade does.
 FileDofs dofs_of(const TurbineDescription& description);
 
-/// How the blades are set at a rotor speed below or at the rated one.
+/// Pitch of the blades at a rotor speed below or at the rated one.
 struct PitchAt {
     double rotor_speed = 0;  ///< rad/s
     double pitch = 0;        ///< leading edge upwind, rad
 };
 
-/// How a controller runs the machine in the wind, as far as its file says so; 0 and empty: it does not.
+/// Operation of the machine in the wind by its controller, as far as its file says so; 0 and empty: it does not.
 struct FileOperation {
     double rated_power = 0;  ///< of the rotor, W: that on the generator's shaft, losses of a gearbox left out
     double least_speed = 0;  ///< of the rotor, rad/s
@@ -102,7 +102,7 @@ struct ModelController {
     ControllerGains gains = {};       ///< of a ROSCO controller's file
     /// Where no controller sets the torque: an induction generator near its synchronous speed (GenModel of ServoDyn).
     SlippingGenerator generator = {};
-    TorqueLaw torque_law = {};  ///< likewise, of a generator of variable speed (VSContrl 1)
+    TorqueLaw torque_law = {};  ///< without a controller, of a generator of variable speed (VSContrl 1)
 };
 
 /// The run in time that a model describes beside the machine, as its main file has it. Where the files do not say:
@@ -138,7 +138,8 @@ struct TurbineFile {
     FileOperation operation = {};
     ModelController controller = {};
     std::optional<ModelRun> run = std::nullopt;
-    /// Of the tower's foot above the ground or the still water, m, as the files count heights; none: they do not say.
+    /// Height of the tower base above the ground or the still water, m, as the files count heights; none: they do not
+    /// say.
     std::optional<double> tower_foot = std::nullopt;
     double gravity = units::standard_gravity;  ///< m/s^2, downward
 };
@@ -146,8 +147,8 @@ struct TurbineFile {
 /// Linear between the speeds of a schedule, constant beyond its ends; rad.  @throws InputError for an empty schedule
 double pitch_at(const std::vector<PitchAt>& schedule, double rotor_speed);
 
-/// Why assemble() would refuse a machine, whatever is set before: a mass or an inertia that its file does not give is
-/// the user's to set. Empty: it would not.
+/// Reason for which assemble() would refuse a machine, whatever is set before: a mass or an inertia that its file does
+/// not give is the user's to set. Empty: it would not.
 std::string refusal_of(TurbineDescription machine);
 
 /// A description that only `TurbineDescription::unusual` admits becomes so, with a note (`unusual_entries`) that names

@@ -31,7 +31,7 @@ public:
     /// One value per row; valid as long as the table. Throws ParseError, listing the existing names, for any other
     /// name.
     [[nodiscard]] std::span<const double> column(std::string_view name) const;
-    /// As above; also throws ParseError if the unit in the file differs.
+    /// Values of a column in a unit; also throws ParseError if the unit in the file differs.
     [[nodiscard]] std::span<const double> column(std::string_view name, std::string_view expected_unit) const;
     [[nodiscard]] const std::string& unit(std::string_view name) const;
 
@@ -69,7 +69,7 @@ public:
     [[nodiscard]] double number(std::string_view quantity, std::string_view expected_unit) const;
     /// The numbers of "2.5e4/1.0e5/1.0e5"; a single number is a list of one.
     [[nodiscard]] std::vector<double> numbers(std::string_view quantity, std::string_view expected_unit) const;
-    /// As above; also throws InputError if there are more or fewer of them.
+    /// Numbers of a quantity; also throws InputError if there are more or fewer of them.
     [[nodiscard]] std::vector<double> numbers(std::string_view quantity, std::string_view expected_unit,
                                               std::size_t count) const;
     /// The value as written in the file.

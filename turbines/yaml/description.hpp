@@ -8,7 +8,7 @@
 
 namespace cardan::turbines {
 
-/// Of a file with a whole machine (turbines/machine/machine_text.hpp) the structure alone.
+/// Parses the structure alone of a file with a whole machine (turbines/machine/machine_text.hpp).
 /// @param file  name for messages
 /// @throws ParseError: invalid YAML, another version, a key that is missing, unknown or duplicate, a value of the wrong
 /// kind

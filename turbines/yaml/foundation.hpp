@@ -1,5 +1,4 @@
-/// @file
-/// What a tower stands on, as 6 x 6 matrices at its foot.
+/// @file Foundations of towers, as 6 x 6 matrices at the tower base.
 #pragma once
 
 #include "turbines/model/platform.hpp"

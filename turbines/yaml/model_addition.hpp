@@ -1,5 +1,4 @@
-/// @file
-/// What goes into a model beside its file.
+/// @file Additions to a model beside its file.
 #pragma once
 
 #include <string>

@@ -14,7 +14,7 @@
 
 namespace cardan::turbines {
 
-/// What of the air lags: of all sections, one blade after the other.
+/// Unsteady parts of the air: of all sections, one blade after the other.
 struct AirLags {
     std::shared_ptr<const std::vector<UnsteadyProfile>> profiles;  ///< sections point to these
     std::vector<SectionLags> sections;
@@ -22,7 +22,7 @@ struct AirLags {
     int states = 0;
 };
 
-/// What does not change with the state.
+/// Parts of an evaluation that do not change with the state.
 struct AirParts {
     std::shared_ptr<const AeroBlade> profile;  ///< of every blade; sections point to its polars
     Wind wind = SteadyWind{};
@@ -54,7 +54,7 @@ struct SectionState {
 struct AirDerivativeScratch {
     std::vector<Mover> movers;               ///< by coordinate
     std::vector<InfluenceSlopes> influence;  ///< of all sections, if the tower changes the wind there
-    std::vector<LaggingSlopes> lagging;      ///< likewise, if something lags
+    std::vector<LaggingSlopes> lagging;      ///< of all sections, if something lags
     std::vector<Columns6> by_q, by_qd;       ///< of the sections of a blade: force, moment per length
     /// Of all sections, by what they see of the wake: its angle, its blade's sine, the share of the induction.
     std::vector<Eigen::Matrix<double, 6, 3>> by_wake;
@@ -69,12 +69,12 @@ struct AirScratch {
     std::vector<BodyRate> rates;
     std::vector<SectionState> sections;     ///< of all blades, one after the other
     std::vector<InfluenceState> influence;  ///< at them, if the tower changes the wind there
-    std::vector<LaggingAir> lagging;        ///< likewise, if something lags
+    std::vector<LaggingAir> lagging;        ///< of all sections, if something lags
     std::vector<SectionInflow> inflows;     ///< of all sections
     std::vector<Induction> inductions;  ///< in equilibrium with the loads; without lags as the rotor's wake leaves them
     std::vector<Vec3> places, winds;    ///< of all sections, the wind without the tower
     std::vector<double> along_x, along_y, angles,
-        levers;  ///< likewise: the chord's components and angle, the wake's lever
+        levers;  ///< of all sections: the chord's components and angle, the wake's lever
     AirDerivativeScratch derivatives;
 };
 
@@ -94,7 +94,7 @@ public:
         const std::size_t count = parts_.profile->sections();
         return std::span(scratch_.sections).subspan(blade * count, count);
     }
-    /// Of the point: force and moment about it.
+    /// Wrench of a point: force and moment about it.
     Wrench wrench(std::size_t blade, const AirPoint& point) const {
         const SectionState& s = sections(blade)[point.section];
         return {point.length * s.force, point.length * s.moment};

@@ -20,15 +20,16 @@ struct RigidPiece {
     std::function<Placement(double)> pose;  ///< of the line's axes, x along it, in body axes
 };
 
-/// Of a beam, from its root to its tip; the beam has to outlive them.
+/// Rigid pieces of a beam, from its root to its tip; the beam has to outlive them.
 std::vector<RigidPiece> pieces_of(const CardanBeam& beam, const Model& model);
 
-/// Where a line has this distance along the x axis of its beam, m.
+/// Arc length at which a line has this distance along the x axis of its beam, m.
 /// @throws InputError for a place beyond its ends; files may round them, by 1e-3 of the length
 double arc_at(const BeamLine& line, double x, const std::string& where, const char* quantity);
 
-/// Where the load of a section acts on a segment. Loads per length are linear between sections, so a section loads all
-/// segments between its neighbours; on a rigid segment its load is one force through one point, whatever the motion:
+/// Point at which the load of a section acts on a segment. Loads per length are linear between sections, so a section
+/// loads all segments between its neighbours; on a rigid segment its load is one force through one point, whatever the
+/// motion:
 ///
 ///     length = int N ds,    place = int N x ds / length,    N: 1 at the section, 0 at its neighbours and beyond.
 ///
@@ -36,7 +37,7 @@ double arc_at(const BeamLine& line, double x, const std::string& where, const ch
 struct AirPoint {
     int body;
     FramePoint at;  ///< on a frame of the segment
-    Vec3 place;     ///< the same in body axes, m
+    Vec3 place;     ///< `at` in body axes, m
     double length;  ///< m
     std::size_t section;
 };

@@ -29,12 +29,12 @@ struct InfluenceParts {
     TowerInfluence influence = TowerInfluence::none;
     TowerShadow shadow = TowerShadow::none;
     std::vector<double> place, diameter, drag;  ///< of the rows, along the tower, m
-    std::vector<double> turbulence;             ///< likewise, of a shadow that asks for it; else empty
+    std::vector<double> turbulence;             ///< of the rows, for a shadow that asks for it; else empty
     std::vector<InfluenceSegment> segments;     ///< upwards
 };
 InfluenceParts influence_parts(const Turbine& turbine, const AeroTower& tower);
 
-/// What the tower does to the wind at a place, base axes. The point of its axis next to the place ("foot") lies on a
+/// Influence of the tower on the wind at a place, base axes. The point of its axis next to the place ("foot") lies on a
 /// rigid segment, so that a coordinate that moves both leaves all of it as it is but for rotation and the wind.
 struct InfluenceState {
     int body = -1;              ///< of the segment
@@ -55,7 +55,7 @@ struct InfluenceState {
 InfluenceState influence_at(const InfluenceParts& parts, const BodyMotion& motion, const SteadyWind& wind,
                             const Vec3& place);
 
-/// How it changes.
+/// Derivatives of the tower's influence.
 class InfluenceSlopes {
 public:
     InfluenceSlopes() = default;

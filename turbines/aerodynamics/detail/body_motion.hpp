@@ -1,5 +1,4 @@
-/// @file
-/// How bodies move at a state, and how their coordinates move what they carry. Internal to the air on machines: not
+/// @file Motion of bodies at a state, and of what they carry by their coordinates. Internal to the air on machines: not
 /// installed.
 #pragma once
 
@@ -45,7 +44,7 @@ public:
     Mat3 rotation(int body) const;
     Vec3 place(int body, const Vec3& in_body) const;
     Vec3 angular(int body) const { return body < 0 ? Vec3(Vec3::Zero()) : entry(rates_, body).angular; }
-    /// Of a point of the body at a place.
+    /// Velocity of a point of the body at a place.
     Vec3 velocity(int body, const Vec3& place) const {
         if (body < 0) return Vec3::Zero();
         const BodyRate& rate = entry(rates_, body);

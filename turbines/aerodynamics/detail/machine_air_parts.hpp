@@ -1,5 +1,4 @@
-/// @file
-/// What a MachineAir holds. Internal to the air on machines: not installed.
+/// @file Parts that a MachineAir consists of. Internal to the air on machines: not installed.
 #pragma once
 
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"
@@ -21,7 +20,7 @@ struct MachineAir::Parts : AirParts {
     explicit Parts(TowerAir drag) : support(std::move(drag)) {}
 };
 
-/// Of the states of a lagging air, in their order.
+/// Names and kinds of the states of an unsteady air, in their order.
 std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& blade_numbers);
 std::vector<ElementGroup> groups_of(const AirParts& parts, const std::vector<BodyId>& body_ids);
 

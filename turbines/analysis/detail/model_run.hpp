@@ -1,5 +1,4 @@
-/// @file
-/// What a run in time takes from the model where its settings say nothing. Internal to the room.
+/// @file Values that a run in time takes from the model where its settings say nothing. Internal to the room.
 #pragma once
 
 #include "turbines/analysis/settings.hpp"
@@ -27,17 +26,17 @@ void take_controller(const Machine& machine, Controller& controller, const Repor
 /// @param settings  in and out
 void take_operation(const Machine& machine, SimulationSettings& settings, const Report& report);
 
-/// Without a controller and a torque of one's own: the law of the model's generator; one that never acts if there is
-/// none.
+/// Torque law of the model's generator, for runs without a controller and without a given torque; one that never acts
+/// if there is none.
 /// @param settings  with a controller that is known
 /// @throws InputError for a law that is none
 TorqueLaw torque_law_of(const Machine& machine, const SimulationSettings& settings);
 
-/// Without a controller: the torque of the model's own induction generator at the start, and its slope.
+/// Takes, without a controller, the torque of the model's own induction generator at the start, and its slope.
 /// @param settings  in and out, with the rotor speed
 void take_generator(const Machine& machine, SimulationSettings& settings, const Report& report);
 
-/// Of a run, s.
+/// Duration of a run, s.
 double duration_of(const RecordSettings& settings, const Machine& machine);
 
 }  // namespace cardan::turbines

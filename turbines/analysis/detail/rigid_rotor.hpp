@@ -24,7 +24,7 @@ public:
     double rated_wind(double speed, double power) const;
     /// Above the rated wind: pitch beyond the machine's that lowers the power to this, rad.
     double pitch_for(double power, double wind, double speed) const;
-    /// How the machine runs in a wind: by its schedule, or its law of variable speed with rated speed and power.
+    /// Operation of the machine in a wind: by its schedule, or its law of variable speed with rated speed and power.
     Operation operation(double wind) const;
 
 private:

@@ -11,7 +11,8 @@
 
 namespace cardan::turbines {
 
-/// Of a run without controller: T = torque + slope (speed - start), or a law, of the generator on its own shaft.
+/// Torque of the generator of a run without controller: T = torque + slope (speed - start), or a law, of the generator
+/// on its own shaft.
 struct GeneratorLoad {
     double torque = 0, slope = 0, start = 0, ratio = 1;  ///< N m, N m s/rad, rad/s, -
     BodyId shaft;
@@ -31,7 +32,7 @@ ChannelGroup generator_channels(const GeneratorLoad& generator);
 /// @throws InputError naming the row
 FrameLoad load_of(const RotorTorque& torque, FrameId hub);
 Turbine with_rotor_torque(const Turbine& turbine, const RotorTorque& torque);
-/// With that at time zero, for ever: for a start in the steady state.
+/// A copy with the rotor torque of time zero for ever: for a start in the steady state.
 Turbine with_first_rotor_torque(const Turbine& turbine, const RotorTorque& torque);
 /// "rotor torque" and "rotor torque power".
 ChannelGroup rotor_torque_channels(const RotorTorque& torque, FrameId hub);

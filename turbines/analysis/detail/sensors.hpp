@@ -1,5 +1,4 @@
-/// @file
-/// What a controller measures. Internal to the room.
+/// @file Sensors of a controller. Internal to the room.
 #pragma once
 
 #include "elements/control/bladed_controller.hpp"
@@ -33,10 +32,10 @@ private:
     double nodding_ = 0;
 };
 
-/// As a library in Bladed's style is told; without time, torque and power of the generator.
+/// Measurements for a library in Bladed's style; without time, torque and power of the generator.
 BladedController::Measured measured(const Sensors& sensors, const MachineLayout& layout);
 
-/// Of the blades, toward feather, rad.
+/// Mean pitch of the blades, toward feather, rad.
 double mean_pitch(const MachineLayout& layout, const Model& model, const Vector& q);
 
 }  // namespace cardan::turbines

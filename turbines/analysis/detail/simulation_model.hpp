@@ -1,5 +1,4 @@
-/// @file
-/// What a Simulation integrates. Internal to the room.
+/// @file The model that a Simulation integrates. Internal to the room.
 #pragma once
 
 #include "solvers/time/integrate.hpp"
@@ -14,7 +13,7 @@ namespace cardan::turbines {
 /// The machine as it runs.
 struct SimulationModel {
     Turbine turbine;
-    Turbine at_start;  ///< the same without anything that changes: springs in the place of actuators
+    Turbine at_start;  ///< `turbine` without anything that changes: springs in the place of actuators
     std::vector<solvers::SampledController> controllers = {};
     std::vector<ChannelGroup> channels = {};  ///< beside those of any machine
     std::string wind = {};                    ///< as text, for the file of the run
@@ -32,7 +31,7 @@ struct SimulationState {
 /// Steady, or undeformed, with a note, where there is no steady state.
 SimulationState start_of(const Turbine& at_start, const SimulationSettings& options, const Report& report);
 
-/// What makes a run but its length, in words: start, controller, torque, wind.
+/// Settings of a run but its length, in words: start, controller, torque, wind.
 std::string in_words(const SimulationSettings& options);
 std::string_view name_of(solvers::Method method);
 

@@ -29,7 +29,7 @@ inline const char* name_of(ProfileModel model) {
 
 namespace cardan::turbines {
 
-/// How the flow around an airfoil lags.
+/// Fields of an airfoil's unsteady aerodynamics.
 struct UnsteadyFields {
     AttachedFlow flow;
     ProfileLags lags;

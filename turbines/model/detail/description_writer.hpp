@@ -72,7 +72,7 @@ public:
     void number(const char* key, double value) { entry(key, digits(value, key)); }
     void numbers(const char* key, const std::vector<double>& values) { entry(key, list(values)); }
     void flag(const char* key, bool value) { entry(key, value ? "true" : "false"); }
-    /// Those that a file may leave out are written all the same, unless there is nothing to write.
+    /// Words that a file may leave out are written all the same, unless there is nothing to write.
     void optional_word(const char* key, const std::string& value) {
         if (!value.empty()) word(key, value);
     }

@@ -6,10 +6,10 @@
 
 namespace cardan::turbines {
 
-/// As converged_mesh(), of one clamped blade.
+/// Converged mesh of one clamped blade, as converged_mesh().
 /// @param description  of which only the blade is looked at
 Mesh blade_mesh(const TurbineDescription& description, const AssemblyOptions& options, int number);
-/// Of the tower.
+/// Converged mesh of the tower.
 /// @param with_top  with everything above it as one rigid body
 Mesh tower_mesh(const TurbineDescription& description, const AssemblyOptions& options, bool with_top);
 

@@ -1,5 +1,4 @@
-/// @file
-/// What a part of a machine needs of its description; not installed.
+/// @file Data that a part of a machine needs of its description; not installed.
 #pragma once
 
 #include "turbines/model/assembly_options.hpp"
@@ -14,7 +13,7 @@ TurbineDescription tower_alone(const TurbineDescription& description);
 /// The rest as far as it is given, on the ground: masses and records need no bearings.
 TurbineDescription completed(TurbineDescription description);
 
-/// Of everything above the tower, undeformed, in axes of the tower top.
+/// Inertia of everything above the tower, undeformed, in axes of the tower top.
 /// @param options  pitch, shaft beam
 RigidInertia tower_top_inertia(TurbineDescription description, AssemblyOptions options);
 

@@ -1,5 +1,4 @@
-/// @file
-/// What the channels of loads have in common, and the loads of a rigid tower. Internal to channels: not installed.
+/// @file Common parts of the channels of loads, and the loads of a rigid tower. Internal to channels: not installed.
 #pragma once
 
 #include "turbines/model/channels.hpp"

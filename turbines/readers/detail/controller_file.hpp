@@ -16,8 +16,8 @@ namespace cardan::turbines {
 /// expect; words behind them are a remark, a further number is an error.
 class ControllerFile {
 public:
-    /// Of any text: entries are the lines with something before the "!" and one of the keywords that are read here as
-    /// the first word behind it. A file without such lines is another controller's, which may be anything.
+    /// Parses any text: entries are the lines with something before the "!" and one of the keywords that are read here
+    /// as the first word behind it. A file without such lines is another controller's, which may be anything.
     /// @param name  for messages
     /// @throws ParseError for a keyword that occurs twice
     ControllerFile(std::string_view text, std::string name);
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] double required(std::string_view keyword) const;
     /// @throws ParseError unless the entry has so many
     [[nodiscard]] std::vector<double> numbers(std::string_view keyword, std::size_t count) const;
-    /// How many numbers or words.  @throws ParseError unless there is such an entry
+    /// Number of the numbers or words of an entry.  @throws ParseError unless there is such an entry
     [[nodiscard]] std::size_t count(std::string_view keyword) const { return entry_of(keyword).words.size(); }
     [[noreturn]] void fail(std::string_view keyword, std::string_view what) const;
 
@@ -48,8 +48,8 @@ private:
     std::map<std::string, Entry> entries_;  // by keyword in lower case
 };
 
-/// Where the blades stand below rated power, over the rotor speed: at their least pitch for the wind at which a rotor
-/// of this radius turns so fast at the tip speed ratio, not slower than `least` and not faster than `most`, rad/s. Of
+/// Pitch of the blades below rated power, over the rotor speed: at their least pitch for the wind at which a rotor of
+/// this radius turns so fast at the tip speed ratio, not slower than `least` and not faster than `most`, rad/s. Of
 /// winds with the same speed of the rotor the one next to those in between counts.
 /// @param winds  ascending
 std::vector<PitchAt> pitch_over_speed(const std::vector<PitchAtWind>& winds, double tip_speed_ratio, double radius,

@@ -15,10 +15,10 @@ struct MatrixBlade {
     std::vector<SectionMatrices> matrices;  ///< one per eta, in the twisted axes of the section; linear in between
 };
 
-/// The same in beam axes: the line a spline through the points (pieces through two or three; straight if all lie on z),
-/// stations wherever matrices or twist are given. BeamDyn's section axes have, without twist, their first axis without
-/// component along the y axis of the root, the carried axes of a ReferenceLine do not turn about the tangent; the angle
-/// between them is part of the table's beta.
+/// The blade in beam axes: the line is a spline through the points (pieces through two or three; straight if all lie on
+/// z), stations wherever matrices or twist are given. BeamDyn's section axes have, without twist, their first axis
+/// without component along the y axis of the root, the carried axes of a ReferenceLine do not turn about the tangent;
+/// the angle between them is part of the table's beta.
 /// @throws InputError
 BeamTable matrix_blade_table(const std::string& name, const MatrixBlade& blade);
 

@@ -9,11 +9,11 @@
 
 namespace cardan::turbines {
 
-/// With Fortran's exponents D and d, those without a letter (4.0+07), and a plus sign. Nothing if it is not one finite
-/// number.
+/// A number as Fortran reads it, with exponents D and d, those without a letter (4.0+07), and a plus sign. Nothing if
+/// it is not one finite number.
 std::optional<double> fortran_number(std::string_view word);
 
-/// What blanks, tabs and commas separate.
+/// Words of a line, separated by blanks, tabs and commas.
 std::vector<std::string_view> words_of(std::string_view line);
 
 /// "a, b, c"

@@ -9,7 +9,7 @@
 
 namespace cardan::turbines {
 
-/// Which column of the polars holds what, from 1; 0: none.
+/// Numbers of the columns of the polars, from 1; 0: none.
 struct PolarColumns {
     int angle, lift, drag, moment;
 };

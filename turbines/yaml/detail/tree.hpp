@@ -15,7 +15,7 @@ namespace cardan::turbines {
 struct YamlLimits {
     std::size_t bytes = std::size_t{8} << 20;
     std::size_t nodes = 1'000'000;  ///< the target of an alias counts each time
-    std::size_t depth = 60;         ///< likewise
+    std::size_t depth = 60;         ///< of nested nodes
     std::size_t line = 1 << 20;     ///< bytes of one line
     std::size_t key = 1024;         ///< bytes
 };

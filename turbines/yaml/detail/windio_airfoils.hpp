@@ -17,7 +17,7 @@ struct WindioAirfoil {
     Polar polar;
 };
 
-/// Which of its polars a blade takes of an airfoil; all lists empty: those there are.
+/// Choice of the polars that a blade takes of an airfoil; all lists empty: those there are.
 struct WindioPolarChoice {
     std::vector<std::string> configurations = {};
     std::vector<double> weights = {};  ///< one per configuration, with the sum 1

@@ -14,7 +14,7 @@ struct WindioCurve {
     double at(double place) const;  ///< linear in between
 };
 
-/// As many places as values, at least two, ascending within 0 ... 1. @throws ParseError
+/// A grid of as many places as values, at least two, ascending within 0 ... 1. @throws ParseError
 std::vector<double> increasing_grid(const YamlNode& node, std::size_t values);
 /// A map with grid and values, the grid from 0 to 1. @throws ParseError
 WindioCurve whole_curve(const YamlNode& node);

@@ -1,5 +1,4 @@
-/// @file
-/// How a machine runs, of a windIO file. Internal to windio: not installed.
+/// @file Operation of a machine of a windIO file. Internal to windio: not installed.
 #pragma once
 
 #include "turbines/yaml/detail/windio_file.hpp"
