@@ -6,7 +6,7 @@
 
 namespace cardan::solvers {
 
-/// What happens to the static gain of the truncated part.
+/// Treatment of the static gain of the truncated part.
 enum class StaticGain : std::uint8_t {
     free,  ///< it is lost
     kept   ///< the gain at frequency zero is preserved (for a model with poles at zero: that of the truncated part)
@@ -51,7 +51,7 @@ struct BalancedModel : ConstantModel {
     int order = 0;       ///< of the stable part, after reduction
     /// Largest singular value of G - G_r at any frequency (scaled): twice the sum of the truncated Hankel values.
     double error_bound = 0;
-    /// With BalancedOptions::max_frequency_hz: the error reached for every input and every output.
+    /// Errors reached for every input and every output, with BalancedOptions::max_frequency_hz.
     Vector input_error = {}, output_error = {};
 };
 

@@ -13,7 +13,7 @@
 
 namespace cardan::solvers {
 
-/// What acts on the machine from outside, as deviation from the steady state.
+/// Input that acts on the machine from outside, as deviation from the steady state.
 class LinearInput {
 public:
     enum class Kind : std::uint8_t { generalised_force, force, moment, motion, system_input };
@@ -32,7 +32,7 @@ public:
     /// Prescribed motion factor * u of coordinates, which are then not states. Creates three inputs: `name`, "name
     /// rate", "name acceleration"; the user must keep them derivatives of one another.
     static LinearInput motion(std::string name, Coordinates coordinates);
-    /// Likewise with a single input, "name acceleration"; position and rate of each coordinate become states.
+    /// Acceleration as a single input, "name acceleration"; position and rate of each coordinate become states.
     static LinearInput acceleration(std::string name, Coordinates coordinates);
     /// An input of the system's elements with states (Forces::inputs()), of the same name.
     static LinearInput system_input(std::string name);

@@ -33,7 +33,7 @@ struct Hdf5Axis {
     std::vector<AxisLabel> labels = {};
 
     [[nodiscard]] std::size_t size() const;
-    /// The same axis with other labels.
+    /// A copy with other labels.
     [[nodiscard]] Hdf5Axis with(std::vector<AxisLabel> other) const { return {name, values, about, std::move(other)}; }
 };
 

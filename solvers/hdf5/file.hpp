@@ -27,7 +27,7 @@ struct Attribute {
 
 using Attributes = std::vector<Attribute>;
 
-/// What the names of the two arrays end in that hold complex numbers.
+/// Endings of the names of the two arrays that hold complex numbers.
 constexpr const char* real_part = "_real";
 constexpr const char* imaginary_part = "_imag";
 

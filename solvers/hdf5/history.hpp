@@ -26,7 +26,7 @@ struct HistoryMetadata {
     std::string program = "cardan";
 };
 
-/// How a history is written.
+/// Options of how a history is written.
 struct HistoryStorage {
     bool replace = false;  ///< a file of that name may exist; it stays until the new one is readable (create() only)
     int chunk = 1024;      ///< samples that are compressed together (create() only)
@@ -79,7 +79,7 @@ public:
     void flush();
     /// Flushes, marks the history as finished, waits for the disk and closes the file, even if this throws.
     void finish();
-    /// Likewise for runs without checkpoints; stores the statistics of the integration.
+    /// Finishes the file of a run without checkpoints; stores the statistics of the integration.
     void finish(const IntegrationStatistics& statistics);
 
     [[nodiscard]] const std::string& path() const;
@@ -118,7 +118,7 @@ struct HistoryInfo {
     std::size_t checkpoint_rows = 0;  ///< rows up to the checkpoint
 };
 
-/// Which part of a history to read.
+/// Part of a history to read.
 struct HistorySelection {
     std::vector<std::string> channels = {};  ///< names or aliases; empty: all
     double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();  ///< s
@@ -135,7 +135,7 @@ struct HistorySelection {
 [[nodiscard]] std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path);
 ///@}
 
-/// What repair_history() did.
+/// Result of repair_history().
 struct HistoryRepair {
     bool flush_completed = false;     ///< a flush that was interrupted in its last part has been completed
     std::uint64_t bytes_removed = 0;  ///< beyond the end: a flush that was interrupted earlier, or its journal

@@ -34,9 +34,9 @@ public:
 
     /// @return false, and nothing is kept, where there is a row of that time: a run that was stopped and goes on
     bool append(double time, const std::vector<double>& values);
-    /// Of the channels that are kept; with a file and some of them empty before close().
+    /// History of the channels that are kept; with a file and some of them empty before close().
     const History& history() const { return history_; }
-    /// Likewise, which it has no more.
+    /// Moves the history out of the recording.
     History release() { return std::move(history_); }
     /// Appended so far, those before a resume included.
     std::size_t rows() const { return writer_ ? writer_->rows() : history_.time.size(); }

@@ -20,7 +20,7 @@ public:
     /// @param forces  those that act, as far as loads follow from them; of the system's model
     /// @return valid until the next call
     const std::vector<double>& at(const DynamicState& state, const Forces& forces);
-    /// Of the system's own forces.
+    /// Values with the system's own forces.
     const std::vector<double>& at(const DynamicState& state);
 
 private:

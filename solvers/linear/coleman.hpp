@@ -10,7 +10,7 @@
 
 namespace cardan::solvers {
 
-/// What a row of a transformed system is: a coordinate itself, or one multi-blade combination of a blade coordinate.
+/// Kind of a row of a transformed system: a coordinate itself, or one multi-blade combination of a blade coordinate.
 enum class MultiBlade : std::uint8_t { none, collective, cosine, sine, differential };
 
 struct MultiBladeRow {
@@ -27,11 +27,11 @@ std::string multi_blade_name(const MultiBladeRow& row);
 /// @param slots  as many as blades
 Matrix multi_blade_block(std::span<const MultiBladeRow> slots, double psi = 0);
 
-/// What keeps blades from being evenly spaced: "blade 2 of 3 is missing", "the blades are not evenly spaced"; empty if
-/// they are.
+/// Reason for which blades are not evenly spaced: "blade 2 of 3 is missing", "the blades are not evenly spaced"; empty
+/// if they are.
 std::string uneven_spacing(const RotorMap& rotor);
-/// Why the blades of a rotor have no multi-blade coordinates over a set of coordinates; empty if they have:
-/// uneven_spacing() of three and more (sum and difference of two need no even spacing), or "blade 2 has other
+/// Reason for which the blades of a rotor have no multi-blade coordinates over a set of coordinates; empty if they
+/// have: uneven_spacing() of three and more (sum and difference of two need no even spacing), or "blade 2 has other
 /// coordinates than blade 1".
 std::string without_multi_blade_coordinates(const RotorMap& rotor, const std::vector<int>& coordinates);
 
@@ -63,7 +63,7 @@ public:
     /// T_s of the states, likewise.
     Matrix state_matrix(double psi, int derivative = 0) const;
     const std::vector<MultiBladeRow>& rows() const { return coordinates_.kinds; }
-    /// Of the states; `blade_coordinate` is the position among the states of a blade.
+    /// Rows of the states; `blade_coordinate` is the position among the states of a blade.
     const std::vector<MultiBladeRow>& state_rows() const { return states_.kinds; }
 
     /// Two columns that rotate into one another: a' = -factor b, b' = factor a (derivatives by psi), so that T(psi) is

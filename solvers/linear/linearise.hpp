@@ -26,11 +26,11 @@ struct Linearisation {
     Matrix inertial;    ///< d(g qdd + Gamma qd qd)/dq
     DynamicState at;
     CoordinateTable coordinates;
-    /// With states s: Q_s ds stands on the right, and ds' = f_q dq + f_qd dq' + f_s ds. Inputs are held.
+    /// Derivatives by states s: Q_s ds stands on the right, and ds' = f_q dq + f_qd dq' + f_s ds. Inputs are held.
     StateDerivatives state_derivatives = {};
     StateTable states = {};
-    /// With loops the equations hold for motions with constraints dx = 0 (reduce_loops()); `reactions` is the stiffness
-    /// that the loops' forces have as they turn, -lambda_i phi_i,ab. Empty without.
+    /// Constraints of loops: the equations hold for motions with constraints dx = 0 (reduce_loops()); `reactions` is
+    /// the stiffness that the loops' forces have as they turn, -lambda_i phi_i,ab. Empty without.
     Matrix constraints = {}, reactions = {};
     /// Derivatives of `constraints` by time along the motion, of LoopState::in_motion; else empty.
     Matrix constraint_rates = {}, constraint_accelerations = {};
@@ -44,7 +44,7 @@ struct Linearisation {
     Matrix stiffness() const { return elastic + geometric(); }
 };
 
-/// What loops may do at an operating point.
+/// State of the loops at an operating point.
 enum class LoopState : std::uint8_t {
     at_rest,    ///< closed, their coordinates stand still: a constant linearisation
     in_motion,  ///< closed; the linearisation holds at that instant only
@@ -79,7 +79,7 @@ private:
 /// A single linearisation with a temporary Lineariser. @throws also MemoryError
 Linearisation linearise(const System& system, const DynamicState& at, LoopState loops = LoopState::at_rest);
 
-/// How states s of first order couple to the rows x of a system of second order:
+/// Coupling of states s of first order to the rows x of a system of second order:
 ///
 ///     M x'' + C x' + K x = Q_s s,   s' = f_q x + f_qd x' + f_s s.
 struct StateTerms {
@@ -98,7 +98,7 @@ struct StateTerms {
 /// In other units: equations multiplied by `rows`, x = rows x', s = states s'. The scales of the states stay.
 void rescale(StateTerms& terms, const Vector& rows, const Vector& states);
 
-/// How far terms are from others, relative to these, states over their scales; 0 without states.
+/// Distance of terms from others, relative to these, states over their scales; 0 without states.
 /// @param rate  1/s, > 0, that makes rates and positions alike: the rotor speed
 double relative_change(const StateTerms& now, const StateTerms& reference, double rate);
 

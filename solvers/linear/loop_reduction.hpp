@@ -6,33 +6,34 @@
 
 namespace cardan::solvers {
 
-/// As many of some coordinates as are independent where G dx = 0; the others follow. Those that move most for the least
-/// inertia do: pivots of the gradients over the root of the mass, each gradient over its length. Dependent constraints
-/// (below 1e-9 of the largest pivot) count once. All of them without loops.
+/// Independent coordinates among some, where G dx = 0; the others follow. Those that move most for the least inertia
+/// do: pivots of the gradients over the root of the mass, each gradient over its length. Dependent constraints (below
+/// 1e-9 of the largest pivot) count once. All of them without loops.
 /// @param preferred  a coordinate that is independent wherever the others can follow it, such as the spin; -1: none
 /// @throws InputError for coordinates out of range
 std::vector<int> independent_coordinates(const Linearisation& lin, const std::vector<int>& coordinates,
                                          int preferred = -1);
 
-/// How coordinates follow those that are independent: G shape = 0.
+/// Matrix by which coordinates follow those that are independent: G shape = 0.
 /// @param constraints  G, by all coordinates
 /// @param independent  some of `coordinates`
 /// @returns one row for each of `coordinates`, one column for each of `independent`
 /// @throws NumericalError where those do not determine the others, as at a dead point
 Matrix following(const Matrix& constraints, const std::vector<int>& coordinates, const std::vector<int>& independent);
 
-/// How well the others are determined by those that are independent: smallest over largest pivot, 0 at a dead point.
+/// Measure of how well the independent coordinates determine the others: smallest over largest pivot, 0 at a dead
+/// point.
 double following_quality(const Matrix& constraints, const std::vector<int>& coordinates,
                          const std::vector<int>& independent);
 
-/// Of some coordinates, those that are independent all along a way: those that the others follow best where they follow
+/// Coordinates among some that are independent all along a way: those that the others follow best where they follow
 /// worst.
 /// @param way  linearisations on it
 /// @throws as independent_coordinates(); NumericalError where no choice passes every dead point on the way
 std::vector<int> independent_on_the_way(const std::vector<Linearisation>& way, const std::vector<int>& coordinates,
                                         int preferred = -1);
 
-/// How they follow along a motion, where the gradients change with time:
+/// Motion of dependent coordinates along a motion, where the gradients change with time:
 ///
 ///     dx = shape dy,  dx' = shape dy' + rate dy,  dx'' = shape dy'' + 2 rate dy' + acceleration dy .
 struct Followers {
@@ -42,7 +43,7 @@ struct Followers {
 /// @throws as above
 Followers followers(const Linearisation& lin, const std::vector<int>& coordinates, const std::vector<int>& independent);
 
-/// How dependent coordinates move for what the others do: G_d x = -right, the shortest x.
+/// Motion of dependent coordinates for that of the others: G_d x = -right, the shortest x.
 /// @param right  G times what the others do
 Matrix follow(const Matrix& constraints, const std::vector<int>& dependent, const Matrix& right);
 /// Multipliers with G^T lambda = load on some coordinates, the shortest, each measured by its gradient there.

@@ -17,7 +17,7 @@ struct Mode {
     ComplexVector shape;  ///< over the rows of the system, unit modal energy x^H K_e x + |lambda|^2 x^H M x = 2 (J)
     /// Over the states of first order; empty without.
     ComplexVector states = {};
-    /// How much of the mode is motion of these states, 0 ... 1: their share in the product of left and right
+    /// Fraction of the mode that is motion of these states, 0 ... 1: their share in the product of left and right
     /// eigenvector, |w^H s| : |y^H (2 lambda M + C) x - w^H f_qd x|, which does not depend on units and scales. From
     /// 1/2 on it is the states' motion (a lag, a current, an inflow) rather than a vibration, whether it oscillates or
     /// not; energy is not of the essence there, and `shape` and `states` are normalised together to a largest scaled
@@ -123,7 +123,7 @@ private:
     ComplexVector elastic_, momentum_;  // K_e y, lambda_y M y
 };
 
-/// That of two modes; complex MAC = |xy|^2 / (xx yy).
+/// Energy product of two modes; complex MAC = |xy|^2 / (xx yy).
 Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mode& y);
 
 /// Share of every row in the elastic energy of a mode, Re conj(x_i) (K_e x)_i over the total: sums to one. Entries of

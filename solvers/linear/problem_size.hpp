@@ -1,5 +1,4 @@
-/// @file
-/// How large a machine may be for analyses with full matrices.
+/// @file Maximum size of a machine for analyses with full matrices.
 #pragma once
 
 #include <cstddef>

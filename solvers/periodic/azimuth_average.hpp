@@ -19,16 +19,17 @@ struct AzimuthAverageOptions {
 struct AzimuthAverage {
     SecondOrderSystem system;
     std::vector<MultiBladeRow> rows;
-    /// What averaging neglects: largest deviation of K, of M and of the states' matrices at an azimuth, each relative
-    /// to the norm of the mean.
+    /// Part that averaging neglects: largest deviation of K, of M and of the states' matrices at an azimuth, each
+    /// relative to the norm of the mean.
     double remainder = 0;
     double steady_remainder = 0;  ///< see PeriodicSteadyState::remainder
 };
 
-/// With gravity (or an unbalance) the steady state is periodic with the revolution, and so are the multi-blade
-/// matrices. Their mean has the frequencies that OpenFAST's linearisation reports; Floquet theory shows how good that
-/// approximation is. The steady state is found by harmonic balance; at standstill it is the equilibrium. Cost: one
-/// harmonic balance and O(azimuths n^2). CampbellMethod::averaged takes the same mean along a diagram.
+/// Averages the linearised equations over the azimuth. With gravity (or an unbalance) the steady state is periodic with
+/// the revolution, and so are the multi-blade matrices. Their mean has the frequencies that OpenFAST's linearisation
+/// reports; Floquet theory shows how good that approximation is. The steady state is found by harmonic balance; at
+/// standstill it is the equilibrium. Cost: one harmonic balance and O(azimuths n^2). CampbellMethod::averaged takes the
+/// same mean along a diagram.
 /// @throws InputError for fewer than three azimuths in rotation, and as harmonic_balance() and ColemanTransform;
 /// NumericalError where no steady state is found
 AzimuthAverage azimuth_average(const System& system, const RotorMap& rotor, const AzimuthAverageOptions& options);

@@ -31,7 +31,7 @@ struct FloquetMode {
     /// Share of every column in sum_j |lambda_j|^2 c_j^H M c_j + c_j^H K_e c_j, lambda_j = exponent + i j 2 pi / T; M
     /// and K_e averaged over the period. Sums to one.
     Vector participation;
-    /// Those of the states beside the coordinates, likewise; empty: there are none.
+    /// Harmonics of the states beside the coordinates; empty: there are none.
     ComplexMatrix state_harmonics = {};
     /// Share of these states in the motion, 0 ... 1: as Mode::state_share, over the period. From 1/2 on it is their
     /// motion and no vibration; then `participation` is that of the harmonics in the states, in units of their scales,

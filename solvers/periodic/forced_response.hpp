@@ -18,7 +18,7 @@ struct ForcedResponse {
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }
     /// Positions (derivative 0), rates (1) or accelerations (2) of all coordinates.
     Vector at(double time, int derivative = 0) const;
-    /// Of all states beside them.
+    /// Values of all states beside the coordinates.
     Vector states_at(double time) const;
 };
 

@@ -38,7 +38,7 @@ public:
 
     /// Second-order systems only. @throws NumericalError if a matrix has the wrong size or is not finite
     void at(double time, SecondOrderSystem& out) const;
-    /// Both kinds; x = (q, q', s) for second-order systems.  @throws as above
+    /// Matrices of both kinds of system; x = (q, q', s) for second-order systems.  @throws as above
     void at(double time, Matrix& E, Matrix& A) const;
 
 private:
@@ -50,8 +50,8 @@ private:
     FirstOrder first_;
 };
 
-/// Those of some coordinates that are independent where loops are closed, the same over the whole period: those that
-/// the others follow best where they follow worst. The spin is one if it is among them. All without loops.
+/// Coordinates among some that are independent where loops are closed, the same over the whole period: those that the
+/// others follow best where they follow worst. The spin is one if it is among them. All without loops.
 /// @throws InputError as linearised(); NumericalError where no choice passes every dead point on the way
 std::vector<int> independent_coordinates(const System& system, const PeriodicSteadyState& about,
                                          const std::vector<int>& unknowns);
@@ -95,7 +95,7 @@ void average(int samples, const At& at, SecondOrderSystem& mean, SecondOrderSyst
 struct BladeSymmetry {
     int parts = 1;
     Matrix P = {};         ///< empty: none
-    Matrix P_beside = {};  ///< likewise of the states beside the coordinates; empty: there are none
+    Matrix P_beside = {};  ///< of the states beside the coordinates; empty: there are none
 
     /// P of x = (q, q', s), or of the states of a system of first order.
     Matrix of_states(const PeriodicSystem& system) const;

@@ -21,7 +21,7 @@ struct PeriodicOptions {
     /// Starting point, as PeriodicSteadyState::coefficients (with any number of harmonics; one column: constant);
     /// empty: zero. Rows of driven coordinates are their prescribed motion (constant pitch, cyclic pitch).
     Matrix start = {};
-    /// Likewise of the states, as PeriodicSteadyState::state_coefficients; empty: as their table says.
+    /// Harmonics of the states at the start, as PeriodicSteadyState::state_coefficients; empty: as their table says.
     Matrix state_start = {};
     /// Residual / stiffness (rad, m; of states: over their scales), largest entry. If no step reduces it further, 1e-8
     /// counts as converged.
@@ -55,7 +55,7 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     int spin = -1;
     /// A row per coordinate of the model (rad or m; that of the spin is zero), columns h0, hc_1, hs_1, hc_2, ...
     Matrix coefficients;
-    Matrix state_coefficients = {};  ///< likewise, a row per state
+    Matrix state_coefficients = {};  ///< a row per state, columns as of `coefficients`
     Vector inputs = {};              ///< held
     int iterations = 0;
     /// Largest residual / stiffness, rad or m: that of the balanced harmonics, or (shooting) the mismatch of positions
@@ -66,7 +66,7 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     double remainder = 0;
     std::vector<HeldMean> held;
     std::string note;  ///< what the equations leave undetermined and at which value it was kept; usually empty
-    double state_remainder = 0;  ///< likewise of the states, over their scales
+    double state_remainder = 0;  ///< `remainder` of the states, over their scales
     /// Harmonic balance: the remainder is more than 1e-5, or that of the states, or 2e-3 where half as many harmonics
     /// left less than twice as much of the states: they follow kinks, as of airfoils' polars.
     bool needs_more_harmonics = false;

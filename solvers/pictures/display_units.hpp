@@ -10,7 +10,7 @@
 
 namespace cardan::solvers {
 
-/// Which units angles are shown in.
+/// Units in which angles are shown.
 enum class AngleUnits : std::uint8_t {
     degrees,  ///< rad as deg; rad/s as rpm for channels whose name ends in "speed", as deg/s otherwise; rad/s^2 as
               ///< deg/s^2

@@ -61,7 +61,8 @@ public:
     Gnuplot& operator=(Gnuplot&&) noexcept;
     ~Gnuplot();
 
-    /// What all pictures of this library are drawn by, so that those of one run have one process. Ends with the thread.
+    /// Process that draws all pictures of this library, so that those of one run have one process. Ends with the
+    /// thread.
     static const Gnuplot& of_this_thread();
 
     /// Runs a script from beginning to end and returns what gnuplot printed: warnings and the output of `print`.

@@ -58,8 +58,8 @@ struct NamedHistory {
 void plot(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,
           const HistoryPlotOptions& options = {});
 
-/// Likewise of several histories over each other, from the first time of any to the last. A channel that some of them
-/// have is drawn of those; with different units there it is refused as within a panel.
+/// Plots several histories over each other, from the first time of any to the last. A channel that some of them have is
+/// drawn of those; with different units there it is refused as within a panel.
 /// @throws InputError also for a channel that none has
 void plot(std::span<const NamedHistory> histories, const std::vector<HistoryPanel>& panels,
           const std::filesystem::path& path, const HistoryPlotOptions& options = {});
@@ -85,7 +85,7 @@ struct SpectrumPlotOptions {
 /// @throws InputError as plot() and as spectrum(), and for frequencies or blades that are negative
 void plot_spectra(const History& history, const std::vector<HistoryPanel>& panels, const std::filesystem::path& path,
                   const SpectrumPlotOptions& options = {});
-/// Likewise of several histories.
+/// Plots the spectra of several histories over each other.
 void plot_spectra(std::span<const NamedHistory> histories, const std::vector<HistoryPanel>& panels,
                   const std::filesystem::path& path, const SpectrumPlotOptions& options = {});
 

@@ -20,7 +20,7 @@ enum class Window : std::uint8_t {
     flat_top,     ///< for amplitudes: within 0.2 % everywhere, peaks five frequency lines wide
 };
 
-/// What is subtracted from a segment first.
+/// Part that is subtracted from a segment first.
 enum class Detrend : std::uint8_t { none, mean, linear };
 
 struct SpectrumOptions {

@@ -17,7 +17,7 @@ namespace cardan::solvers {
 
 class ConstrainedMotion;
 
-/// What a lock has to hold, beside the other loops and locks.
+/// Load that a lock has to hold, beside the other loops and locks.
 struct LockHold {
     bool beside_loops = false;  ///< loops alone leave its coordinate free to move
     bool beside_all = false;    ///< so do the loops and the other locks that are engaged
@@ -78,7 +78,7 @@ public:
     /// Replaces the motion of a driven coordinate from now on.
     /// @throws InputError if the coordinate is not driven, or if its position or rate would jump at `time`
     void set_motion(int coordinate, Motion motion, double time);
-    /// The same for a motion that jumps.
+    /// Sets a motion that jumps.
     void set_jump(int coordinate, Motion motion);
     /// Replaces the forces from now on (nullptr: those of the system); they must outlive their use.
     /// @throws InputError for forces with other states or inputs
@@ -107,18 +107,18 @@ public:
     /// until the next call. Those of the accelerations are -g^-1 S and -g^-1 C.
     /// @return false if the metric is not positive definite at the state; problem() says where
     bool linearise(double time, const double* x);
-    /// Likewise where the driven coordinates are in this state, whatever their motions are now.
+    /// Linearises where the driven coordinates are in this state, whatever their motions are now.
     /// @param driven  driven_state()
     bool linearise(double time, const double* x, const double* driven);
     /// Position, rate and acceleration of each drive at the last state that was evaluated.
     /// @param out  3 drives().size()
     void driven_state(double* out) const;
-    /// Likewise at the last residual(), which must be the preceding call; its metric need not be positive definite.
+    /// Linearises at the last residual(), which must be the preceding call; its metric need not be positive definite.
     void linearise_residual();
     /// K = c_qdd g + c_qd C + c_q S.
     /// @param K  out, size() x size().  Cost O(n^2)
     void tangent(double c_qdd, double c_qd, double c_q, MatrixOut K) const;
-    /// The same on the branches of the tree, ones on the diagonal for driven coordinates.
+    /// Tangent matrix on the branches of the tree, ones on the diagonal for driven coordinates.
     /// @param K  out, of all coordinates
     /// @return false, K being undefined, if forces couple coordinates that are not on one branch.  Cost O(n d)
     bool tangent_on_branches(double c_qdd, double c_qd, double c_q, BranchMatrix& K) const;
@@ -139,10 +139,10 @@ public:
     bool project(double time, double* x);
     /// @throws InputError where projected rates still open a loop: prescribed motions contradict each other
     void require_closed_rates(double time, const double* x);
-    /// What the loops do; nullptr: there are none.
+    /// Motion under the loops' constraints; nullptr: there are none.
     const ConstrainedMotion* loops() const { return loops_.get(); }
     const Loops& system_loops() const { return system_->loops; }
-    /// What a lock that is engaged has to hold, at the state evaluated last.  Allocates.
+    /// Load that an engaged lock has to hold, at the state evaluated last.  Allocates.
     /// @param equation  of the lock, Loops::first_of()
     LockHold hold(int equation);
 
@@ -159,7 +159,7 @@ public:
     /// Evaluates a user function at a state.
     double evaluate(const std::function<double(const StateView&)>& function, double time, const double* x);
 
-    /// What went wrong when a function returned false.
+    /// Message of what went wrong when a function returned false.
     const std::string& problem() const { return problem_; }
     void clear_problem() { problem_.clear(); }
     /// "position of 'name'", "rate of 'name'" or "state 'name'" of an entry of x.

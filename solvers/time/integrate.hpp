@@ -54,7 +54,7 @@ struct IntegrationStatistics {
 
 class Integrator;
 
-/// What happens after the action of an event.
+/// Course of the integration after the action of an event.
 enum class AfterEvent : std::uint8_t {
     proceed,  ///< nothing has changed
     restart,  ///< motions or forces have changed: the method restarts
@@ -110,13 +110,13 @@ struct EnergyBalance {
     double loads = 0;
     /// Change of kinetic energy minus the work of all forces: energy lost or gained by the integration method.
     double error = 0;
-    /// Of elements with states that tell their energy: stored, and supplied and dissipated since the start.
+    /// Energies of elements with states that report them: stored, and supplied and dissipated since the start.
     double stored = 0, state_supply = 0, state_dissipation = 0;
     /// Change of what is stored minus supply, plus dissipation and work of their forces: error of the integration.
     double state_error = 0;
 };
 
-/// How advance() ended.
+/// Result of advance().
 struct [[nodiscard]] Advance {
     enum class End : std::uint8_t { reached, event, cancelled, failed };
     End end = End::reached;
@@ -246,7 +246,7 @@ public:
     /// Evaluates accelerations, forces of drives and multipliers of the present state anew: in an action, after what
     /// they depend on has changed.
     void update();
-    /// What a lock that is engaged has to hold: in an action, after update().
+    /// Load that an engaged lock has to hold: in an action, after update().
     LockHold hold(int equation) { return equations_.hold(equation); }
     /// Call when forces have changed: results beyond the present time are discarded.
     void restart();
@@ -254,7 +254,7 @@ public:
 
 private:
     enum class Doing : std::uint8_t { nothing, acting, advancing };
-    /// What it does while this lives.
+    /// Activity of the integrator while this lives.
     class While;
 
     void watch_free_bodies();

@@ -33,8 +33,8 @@ public:
     /// At rest at `from` until t0 and at `to` from t1 on, in between the quintic 10 x^3 - 15 x^4 + 6 x^5: continuous
     /// acceleration, peak velocity 15/8 of the mean.
     static Motion ramp(double from, double to, double t0, double t1);
-    /// Likewise a ramp of the rate, from `rate_from` to `rate_to`; the position is `position` at t0. For start-up and
-    /// shut-down of a rotor. The jerk is continuous.
+    /// A ramp of the rate, from `rate_from` to `rate_to`; the position is `position` at t0. For start-up and shut-down
+    /// of a rotor. The jerk is continuous.
     static Motion rate_ramp(double position, double rate_from, double rate_to, double t0, double t1);
     /// To rest at a target within limits of rate, acceleration and jerk, from any state (see Travel): a commanded
     /// drive. In the action of an event: set_motion(i, Motion::travel({t, {q, qd, 0}, target, limits})).

@@ -11,7 +11,7 @@
 
 namespace cardan::solvers {
 
-/// What is recorded in addition to the user's own channels.
+/// Options of what is recorded in addition to the user's own channels.
 struct RecorderOptions {
     bool coordinates = true;     ///< "<coordinate>", rad or m
     bool rates = true;           ///< "<coordinate> rate"

@@ -37,13 +37,13 @@ struct SampledController {
     double first = 0;                 ///< s, time of sample 0
     /// Coordinates that follow its inputs. Until the first sample they rest where they start.
     std::vector<InputDrive> drives = {};
-    /// What it computes at a sample is put out at the next one: the time that it takes to compute.
+    /// Whether the output of a sample is put out at the next one: the time that it takes to compute.
     bool delayed = false;
     /// @param sample  0, 1, 2 ...
     /// @param u       in: the present values of its inputs, out: the new ones
     std::function<void(long sample, const DynamicView& at, VectorOut u)> update = {};
-    /// Its memory for checkpoints, and back; both empty: it has none. `keeps_to_itself`: it has one that it does not
-    /// give away; then there are no checkpoints.
+    /// Memory of the controller for checkpoints (`save`), and back; both empty: it has none. `keeps_to_itself`: it has
+    /// one that it does not give away; then there are no checkpoints.
     std::function<std::vector<double>()> save = {};
     std::function<void(std::span<const double>)> restore = {};
     bool keeps_to_itself = false;
@@ -63,7 +63,7 @@ struct SampledState {
 /// Motions of the coordinates that follow a controller, from its last sample on.
 std::vector<Drive> followed_motions(const SampledController& controller, const SampledState& state);
 
-/// With those until the first sample, at rest, for coordinates without a motion.
+/// Drives with those until the first sample, at rest, for coordinates without a motion.
 std::vector<Drive> with_followers(std::vector<Drive> drives, const std::vector<SampledController>& controllers,
                                   const Vector& q);
 

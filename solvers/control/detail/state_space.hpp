@@ -27,7 +27,7 @@ public:
     /// @throws InputError, see state_space()
     Layout(const System& system, const RotorMap& rotor, const std::vector<LinearInput>& inputs,
            const StateSpaceOptions& options);
-    /// With loops, leaves those as states on which the other unknowns depend.
+    /// Leaves, with loops, those as states on which the other unknowns depend.
     void keep_independent(const std::vector<int>& kept);
 
     Eigen::Index states() const { return 2 * std::ssize(coordinates) + first_order(); }

@@ -12,7 +12,7 @@ namespace cardan::solvers::detail {
 /// @throws InputError "<path>: <object>: <why>"
 [[noreturn]] void refuse(const std::string& path, std::string_view object, std::string_view why);
 
-/// Why a text cannot be stored (NUL, not UTF-8); empty: it can.
+/// Reason for which a text cannot be stored (NUL, not UTF-8); empty: it can.
 std::string flaw(std::string_view s);
 
 /// The name without a leading slash; the parts between slashes are names.

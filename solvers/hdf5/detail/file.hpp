@@ -65,7 +65,7 @@ struct Hdf5File::Impl {
         }
     }
 
-    /// For owners who open the file by other means than Hdf5File's own.
+    /// Wraps a file for owners who open the file by other means than Hdf5File's own.
     static Hdf5File wrap(std::unique_ptr<Impl> impl) { return Hdf5File(std::move(impl)); }
     static Impl& of(const Hdf5File& file) { return file.readable(); }
     /// @throws FileError unless it is an ordinary file that may be read

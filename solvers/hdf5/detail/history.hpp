@@ -19,7 +19,7 @@ constexpr int history_format_version = 2;
 /// Names of the variables that hold the channels: the channel names, as far as netCDF allows them.
 [[nodiscard]] std::vector<std::string> variable_names(const std::vector<Channel>& channels);
 
-/// For a new file.
+/// Creation properties of a new file.
 [[nodiscard]] Handle creation_list(const Hdf5File::Impl& impl);
 /// Everything but the time and the channels.
 void write_about(Hdf5File& file, const HistoryMetadata& about);
@@ -47,7 +47,7 @@ struct StoredHistory {
 [[nodiscard]] StoredHistory read_frame(const Hdf5File& file);
 /// @param rows  number of values that the variable must have
 [[nodiscard]] Channel read_channel(const Hdf5File& file, const std::string& variable, std::size_t rows);
-/// Both of the above.
+/// Reads frame and channels.
 [[nodiscard]] StoredHistory read_stored(const Hdf5File& file);
 /// Rows first ... first + count - 1 of a variable.
 [[nodiscard]] std::vector<double> read_rows(const Hdf5File& file, const std::string& variable, std::size_t first,

@@ -22,7 +22,7 @@ struct HistoryWriter::Impl {
     std::vector<detail::Handle> variables = {};  ///< time, then one per channel
     std::size_t chunk = 1, stored = 0;           ///< rows
     std::vector<double> times = {};              ///< of the rows that are not stored yet
-    std::vector<double> values = {};             ///< the same, row by row
+    std::vector<double> values = {};             ///< of those rows, row by row
     double last_time = -std::numeric_limits<double>::infinity();
     std::function<Checkpoint()> source = {};
     Eigen::Index coordinates = -1;  ///< of the checkpoints; -1: there is none yet

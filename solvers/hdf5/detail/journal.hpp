@@ -93,7 +93,7 @@ private:
     Clock::time_point opened_;
     struct stat found_ {};
     std::uint64_t end_ = 0;        ///< of the last commit
-    std::uint64_t protected_ = 0;  ///< the same, rounded up to whole blocks
+    std::uint64_t protected_ = 0;  ///< `end_`, rounded up to whole blocks
     int error_ = 0;
     std::map<std::uint64_t, Block> blocks_;  ///< held back, by address
 };

@@ -17,8 +17,8 @@ struct JournalLink {
     /// Closing the file commits. Set it only once HDF5 has opened the file, since it may not be an HDF5 file, and reset
     /// it if an HDF5 operation fails halfway.
     bool commit_at_close = false;
-    /// Of a new file: the descriptor that holds its lock, until the file is open. HDF5 opens a new file twice, and in
-    /// between no other program may get it.
+    /// Descriptor that holds the lock of a new file until the file is open. HDF5 opens a new file twice, and in between
+    /// no other program may get it.
     int held = -1;
 
     JournaledFile* file = nullptr;  ///< while it is open

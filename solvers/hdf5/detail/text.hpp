@@ -34,7 +34,7 @@ struct CharacterBlock {
 /// The text without its padding.
 [[nodiscard]] std::string text_of(const char* from, std::size_t size, H5T_str_t padding);
 
-/// What netCDF writes as the name of the scale of an axis without values.
+/// Name that netCDF writes for the scale of an axis without values.
 [[nodiscard]] std::string name_without_values(std::size_t length);
 
 }  // namespace cardan::solvers::detail

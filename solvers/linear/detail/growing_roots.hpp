@@ -1,5 +1,4 @@
-/// @file
-/// How many roots of a system with local states grow. Internal to solvers: not installed.
+/// @file Number of the roots of a system with local states that grow. Internal to solvers: not installed.
 #pragma once
 
 #include "solvers/linear/detail/shifted_states.hpp"

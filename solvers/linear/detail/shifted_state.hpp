@@ -1,5 +1,4 @@
-/// @file
-/// What the solvers of second-order eigenvalue problems have in common: scaling, shift, checks.
+/// @file Common parts of the solvers of second-order eigenvalue problems: scaling, shift, checks.
 #pragma once
 
 #include "solvers/linear/linearise.hpp"

@@ -63,11 +63,11 @@ public:
     explicit ShiftedStates(const FirstOrderWithStates& system);
 
     void set(Complex sigma);
-    /// Of S, LuFactors::pivot_ratio(); not a number if a group of states is singular.
+    /// Pivot ratio of S, LuFactors::pivot_ratio(); not a number if a group of states is singular.
     double pivot_ratio() const;
     /// S without its factors: respond(), solve() and solve_adjoint() need set().
     void assemble(Complex sigma);
-    /// Of S.
+    /// Real part of S.
     const Matrix& real_part() const { return re_; }
     const Matrix& imaginary_part() const { return im_; }
     /// Q_s (sigma - f_s)^-1 (f_q + sigma f_qd)

@@ -9,7 +9,7 @@ namespace cardan::solvers {
 /// Grid of a Q-th of the period: samples, of which each factor of the product takes as many, and steps in each; 0: to
 /// be refined, from one step in `first_ratio` samples to one in each, then doubled.
 struct FloquetGrid {
-    /// Of the first two integrations: what they differ by tells the error of the second one.
+    /// Ratio of the steps of the first two integrations, whose difference shows the error of the second one.
     static constexpr int first_ratio = 3;
     int samples, factors, steps;
 };

@@ -1,5 +1,4 @@
-/// @file
-/// What two alike blades leave of the unknowns of a periodic steady state.
+/// @file Unknowns of a periodic steady state that two alike blades leave.
 #pragma once
 
 #include "solvers/periodic/detail/rotor_equations.hpp"

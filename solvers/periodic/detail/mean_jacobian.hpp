@@ -24,7 +24,7 @@ public:
     /// azimuth in any coordinates.
     static std::optional<MeanJacobian> make(const RotorMap& rotor, const RotorEquations& equations, int harmonics);
 
-    /// Of series in other numbers of harmonics.
+    /// Sets the number of harmonics of the series.
     void set_harmonics(int harmonics);
     /// No step changes the mean of this unknown. @returns false for a blade's coordinate, of which there is none
     bool hold(Eigen::Index row);

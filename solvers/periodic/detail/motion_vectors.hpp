@@ -1,5 +1,4 @@
-/// @file
-/// What the vectors of one motion, at some times of the period, tell of it.
+/// @file Properties of one motion by its vectors at some times of the period.
 #pragma once
 
 #include "solvers/algebra/product_eigen.hpp"
@@ -7,8 +6,8 @@
 
 namespace cardan::solvers {
 
-/// Of the states beside the coordinates in the products of left and right vectors, which are 1; all over the period,
-/// since they pass it on to the coordinates and back.
+/// Fraction of the states beside the coordinates in the products of left and right vectors, which are 1; all over the
+/// period, since they pass it on to the coordinates and back.
 double state_share(const PeriodicSystem& system, const ProductEigen::Vectors& vectors);
 
 /// Kinetic energy over that of the positions taken for rates: a mean of the squares of the frequencies of its

@@ -41,7 +41,7 @@ public:
     /// M, C, K of the coordinates: derivatives of the residual by accelerations, rates and positions, and those of
     /// states in SecondOrderSystem::states.
     void linearise(SecondOrderSystem& out);
-    /// The same with loops and states as further rows of M, C and K (append_states()).
+    /// Linearises with loops and states as further rows of M, C and K (append_states()).
     void linearise_all(SecondOrderSystem& out);
 
     /// Coefficients of the unknowns at the start, with the wanted number of harmonics; and, conversely, those of all

@@ -24,7 +24,7 @@ struct SlowWay {
     Matrix X, Y, V, W, dV, dW, a, b;
 };
 
-/// What of the equations is left: forces along the fast vectors, and a and b by those along the slow ones.
+/// Residual of the equations: forces along the fast vectors, and a and b by those along the slow ones.
 struct SlowRemainder {
     SlowRemainder(const SlowAzimuth& azimuth, const SlowWay& way);
     Matrix X, Y, a, b;  ///< corrections of X and Y; a and b anew

@@ -8,9 +8,9 @@
 
 namespace cardan::solvers {
 
-/// Of M q'' + C q' + K q = 0 with n coordinates those motions that are slower than all others, without an
-/// approximation: q = X(t) z + Y(t) z', q' = V(t) z + W(t) z' and z'' = -b(t) z' - a(t) z with m < n coordinates z, all
-/// matrices of period T. That q' is the derivative of q and obeys the equations means
+/// Motions of M q'' + C q' + K q = 0 with n coordinates that are slower than all others, without an approximation: q =
+/// X(t) z + Y(t) z', q' = V(t) z + W(t) z' and z'' = -b(t) z' - a(t) z with m < n coordinates z, all matrices of period
+/// T. That q' is the derivative of q and obeys the equations means
 ///
 ///     V = X' - Y a,                          W = X + Y' - Y b,
 ///     M (V' - W a) + C V + K X = 0,          M (V + W' - W b) + C W + K Y = 0.
@@ -37,7 +37,7 @@ public:
 
     /// z, unit mass matrix.
     const PeriodicSystem& system() const { return system_; }
-    /// That of the whole, of z.
+    /// Blade symmetry of the whole, of z.
     const BladeSymmetry& symmetry() const { return symmetry_; }
     /// [X Y; V W]: (q, q') of (z, z').
     Matrix expansion(double time) const;
@@ -45,7 +45,7 @@ public:
     /// error of frequencies of one per period and more, twice the error over 2 pi / T of slower ones.
     double error() const { return error_; }
 
-    /// Of the collocation, per period.
+    /// Azimuths of the collocation, per period.
     int azimuths() const { return static_cast<int>(2 * (series_.cols() - 1)); }
 
 private:

@@ -15,7 +15,7 @@ public:
     virtual void set(double t, double h, Matrix& Phi) = 0;
 };
 
-/// As transitions() of a system, by these steps.
+/// Transition matrices, as transitions() of a system, by these steps.
 /// @param states  of Phi
 std::vector<Matrix> transitions(TransitionStep& step, Eigen::Index states, double t0, double t1, int intervals,
                                 int steps);

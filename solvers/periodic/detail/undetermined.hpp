@@ -1,5 +1,4 @@
-/// @file
-/// What the equations of a periodic steady state leave open. Internal to solvers: not installed.
+/// @file Motions that the equations of a periodic steady state leave open. Internal to solvers: not installed.
 #pragma once
 
 #include "solvers/periodic/detail/rotor_equations.hpp"

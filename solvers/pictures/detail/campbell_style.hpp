@@ -21,7 +21,7 @@ std::vector<double> abscissae(const Campbell& diagram);
 /// @throws InputError for a diagram without points or branches
 void require_points(const Campbell& diagram);
 
-/// What `abscissae` are, with the unit.
+/// Label of `abscissae`, with the unit.
 std::string abscissa_label(const Campbell& diagram);
 
 }  // namespace cardan::solvers

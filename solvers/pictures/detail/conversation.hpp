@@ -9,7 +9,7 @@
 
 namespace cardan::solvers {
 
-/// What the system says of an error number.
+/// Text of the system on an error number.
 std::string system_reason(int number);
 
 /// Runs a program whose standard input, output and errors are one socket; it ends when the object goes away.

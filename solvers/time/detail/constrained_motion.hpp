@@ -34,7 +34,7 @@ public:
     /// Moves the free coordinates and their rates onto the constraints.
     /// @return false if the loops stay open; problem() says which and how far
     bool project(double time, Vector& q, Vector& qd, Workspace& workspace);
-    /// How far an equation is open.
+    /// Gap of an equation.
     struct Gap {
         int equation = 0;
         double value = 0;  ///< in its unit, or per s

@@ -1,5 +1,4 @@
-/// @file
-/// What saves iterations and Jacobians of implicit Runge-Kutta methods. For sources only.
+/// @file Savings of iterations and Jacobians in implicit Runge-Kutta methods. For sources only.
 #pragma once
 
 #include "mbs/base/types.hpp"

@@ -31,7 +31,7 @@ public:
     /// x = M^-1 b, both of the length of x; may be the same
     void solve(const double* b, double* x);
 
-    /// How many numbers tell it: where the Jacobian was taken, and for what c it was factorised.
+    /// Number of values that describe it: where the Jacobian was taken, and for what c it was factorised.
     static int memory(const EquationsOfMotion& equations);
     /// @param out  memory() numbers; the first is zero if there is no Jacobian
     void remember(double* out) const;

@@ -1,5 +1,4 @@
-/// @file
-/// What the integrator requires of an integration method.
+/// @file Interface that the integrator requires of an integration method.
 #pragma once
 
 #include "solvers/time/integrate.hpp"

@@ -36,7 +36,7 @@ protected:
 
     /// Estimated local errors and their weights, into errors() and error_weights().
     virtual bool local_errors() = 0;
-    /// Why no step was possible, and what limits the step.
+    /// Reason for which no step was possible, and what limits the step.
     /// @param flag  of the library; not negative: the clock stood still
     std::string explain(int flag, std::string_view advice);
 

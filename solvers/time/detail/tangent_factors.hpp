@@ -35,12 +35,12 @@ public:
     struct Factors {
         double qdd, qd, q, s_rate, s;
     };
-    /// Of the terms as they are now.  Cost O(n d^2), or O(n^3) if it has to be full; with states, O(m n d) more, and
-    /// O(k^3 + k d^2) for each group of k that is eliminated first.
+    /// Factorises the terms as they are now.  Cost O(n d^2), or O(n^3) if it has to be full; with states, O(m n d)
+    /// more, and O(k^3 + k d^2) for each group of k that is eliminated first.
     void form(const Factors& c);
     /// r := K^-1 r, by unknowns, then states.  Cost O(n d) or O(n^2)
     void solve(Vector& r);
-    /// With loops, y = G v.
+    /// Solves with loops, y = G v.
     /// @param v  by unknowns
     void solve(Vector& r, const Vector& v);
 
