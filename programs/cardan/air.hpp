@@ -21,11 +21,11 @@ struct AirArguments {
     bool no_skew = false, no_tower = false;
     std::string wake = "quasi-steady";  ///< "none": no induced velocities
 };
-/// Of these, file and density alone.
+/// Adds the options of the file of airfoils and of the density alone.
 /// @return the options
 std::vector<Option> add_profile_options(CommandLine& app, AirArguments& arguments);
 std::vector<Option> add_air_options(CommandLine& app, AirArguments& arguments);
-/// Of commands whose wake is in equilibrium, or none.
+/// Adds the option of commands whose wake is in equilibrium, or none.
 Option add_wake_option(CommandLine& app, AirArguments& arguments);
 /// In the library's own terms.
 turbines::AirSettings settings_of(const AirArguments& arguments);

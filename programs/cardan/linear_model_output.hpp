@@ -1,5 +1,4 @@
-/// @file
-/// What `cardan linearise` prints and writes.
+/// @file Output of `cardan linearise`.
 #pragma once
 
 #include "solvers/campbell/diagram.hpp"
@@ -21,7 +20,7 @@ void introduce(const solvers::LinearModel& model, double rpm, const solvers::Mul
 void print_modes(const solvers::ConstantModel& model, const std::optional<solvers::Campbell>& diagram,
                  double max_frequency);
 
-/// Which inputs and outputs a small model serves is seen here.
+/// Prints which inputs and outputs a small model serves.
 /// @param max_frequency  Hz, up to which it does
 void print(const solvers::ConstantModel& fixed, const solvers::BalancedModel& small, double max_frequency);
 

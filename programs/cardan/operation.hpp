@@ -1,5 +1,4 @@
-/// @file
-/// How a machine runs, as its source says or the options do: rotor speeds, pitch.
+/// @file Operation of a machine, as its source says or the options do: rotor speeds, pitch.
 #pragma once
 
 #include "programs/shared/machine_file.hpp"
@@ -14,13 +13,13 @@ std::optional<double> asked_speed(const std::optional<double>& asked_rpm);
 /// @return rad/s;  @throws InputError if there is none
 double rotor_speed(const std::optional<double>& asked_rpm, const turbines::Machine& machine);
 
-/// Without a pitch among the options, that of the machine at a rotor speed, rad/s, is put there, and told.
+/// Puts the pitch of the machine at a rotor speed, rad/s, into options without one, and prints it.
 void set_pitch(const turbines::Machine& machine, MachineOptions& options, double rotor_speed);
 
 /// --like
 void add_like(CommandLine& app, std::string& file);
 
-/// Of a picture: the machine, and what the diagram holds for.
+/// Title of a picture: the machine, and what the diagram holds for.
 std::string title_of(const solvers::Campbell& diagram);
 
 /// The name of the machine's file without its ending, and what was made of it: "NREL-5MW_campbell".

@@ -1,5 +1,4 @@
-/// @file
-/// What `cardan plot` is asked for, and its pictures of time histories.
+/// @file Arguments of `cardan plot`, and its pictures of time histories.
 #pragma once
 
 #include "mbs/base/text.hpp"
@@ -37,7 +36,7 @@ void draw_files(const PlotArguments& a, const std::string& suffix, const std::st
 /// "TIME=LABEL", s.  @throws InputError
 std::vector<solvers::HistoryMark> marks(const std::vector<std::string>& given);
 
-/// Of all files, over each other; or what is in them.
+/// Draws the histories of all files over each other, or lists what is in them.
 /// @param names  of the files, for legends
 /// @return exit code
 int draw_histories(const PlotArguments& arguments, const std::vector<std::string>& names);

@@ -14,7 +14,7 @@
 
 namespace cardan::program {
 
-/// Of a controller.
+/// Arguments of a controller.
 struct ControllerArguments {
     std::string what;   ///< "baseline", "none", or the path of a shared library; empty: the model's
     std::string input;  ///< file for the library

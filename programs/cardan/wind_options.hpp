@@ -1,5 +1,4 @@
-/// @file
-/// What commands with --wind over a range of speeds ask about it, and what that means to the library.
+/// @file Options of commands with --wind over a range of speeds, and their meaning to the library.
 #pragma once
 
 #include "programs/cardan/air.hpp"
@@ -12,7 +11,7 @@
 
 namespace cardan::program {
 
-/// What the wind is, and how the machine runs in it.
+/// Arguments of the wind and of the machine's operation in it.
 struct WindArguments {
     std::string speeds;    ///< m/s, with ranges; empty: no wind
     std::string schedule;  ///< file; empty: the machine's, or variable speed
@@ -29,7 +28,7 @@ Option add_wind_options(CommandLine& app, WindArguments& arguments);
 std::vector<double> winds_of(const WindArguments& wind);
 turbines::OperationSettings operation_of(const WindArguments& wind);
 
-/// What the air does to a vibration.
+/// Arguments of what the air does to a vibration.
 struct VibrationArguments {
     WindArguments wind;  ///< of its wake, air.wake, frozen and dynamic too
     bool steady_profiles = false, floquet = false;
@@ -48,6 +47,6 @@ void check_wind(const WindArguments& wind, const std::string& rpm);
 /// @throws InputError as take_air()
 void take_wind(turbines::Machine& machine, const WindArguments& wind, MachineOptions& options);
 
-/// For people: "wind speed 3 of 8". From the first one on, what is done is kept when a signal comes.
+/// Shows progress to people: "wind speed 3 of 8". From the first one on, what is done is kept when a signal comes.
 void show_progress(const char* what, int done, int total);
 }  // namespace cardan::program

@@ -1,5 +1,4 @@
-/// @file
-/// What `cardan steady --wind` prints, writes and draws.
+/// @file Output of `cardan steady --wind`: text, files and pictures.
 #pragma once
 
 #include "mbs/system/channel.hpp"
@@ -37,7 +36,7 @@ void write_hdf5(const WindResults& results, const std::string& path, const std::
 void draw_points(const WindResults& results, const std::string& prefix);
 /// Along the blade, of at most six winds.
 void draw_sections(const WindResults& results, const std::string& prefix);
-/// Of the rotor that does not bend, over the tip-speed ratio, for some pitch angles.
+/// Draws the coefficients of the rotor that does not bend, over the tip-speed ratio, for some pitch angles.
 void draw_coefficients(const std::string& title, const AeroBlade& blade, const RotorAirOptions& options, int blades,
                        double cone, const std::string& prefix);
 ///@}

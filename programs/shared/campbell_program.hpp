@@ -1,5 +1,4 @@
-/// @file
-/// What the programs that compute Campbell diagrams have in common.
+/// @file Common parts of the programs that compute Campbell diagrams.
 #pragma once
 
 #include "mbs/base/units.hpp"
@@ -38,7 +37,7 @@ inline void speed_progress(int done, int total) {
     progress(text("rotor speed ", done, " of ", total, done == total ? "\n" : ""));
 }
 
-/// With progress, and to be stopped by Ctrl-C.
+/// Options of a diagram with progress that Ctrl-C stops.
 inline solvers::CampbellOptions campbell_options(double max_frequency_hz) {
     solvers::CampbellOptions options;
     options.max_frequency_hz = max_frequency_hz;
@@ -61,7 +60,7 @@ inline void write_files(const solvers::Campbell& diagram, const std::string& pre
     for (const char* kind : {".svg", ".png"}) solvers::plot(diagram, prefix + kind, picture);
 }
 
-/// The same, and PREFIX_roots.svg, PREFIX_roots.png.
+/// Writes the files of a diagram, PREFIX_roots.svg and PREFIX_roots.png among them.
 /// @param shown  of the diagram, in pictures
 inline void write_files_and_roots(const solvers::Campbell& diagram, const solvers::Campbell& shown,
                                   const std::string& prefix, const solvers::CampbellPlotOptions& picture) {

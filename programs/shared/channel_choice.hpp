@@ -1,5 +1,4 @@
-/// @file
-/// Which channels a machine has beside the usual ones, and which of them tables and pictures show without being asked.
+/// @file Channels of a machine beside the usual ones, and those that tables and pictures show without being asked.
 #pragma once
 
 #include "programs/shared/command_line.hpp"
@@ -47,7 +46,7 @@ inline void check_stations(const turbines::Machine& machine, const MachineOption
     static_cast<void>(turbines::station_channels(turbine, stations));
 }
 
-/// Those at the stations that were asked for.
+/// Channels at the stations that were asked for.
 inline std::vector<ChannelGroup> station_channels(const turbines::Turbine& turbine, const StationOptions& options) {
     return turbines::station_channels(turbine, stations_of(options));
 }
@@ -89,7 +88,7 @@ inline solvers::HistoryPanel panel_of(const std::string& joined) {
     return {split(joined, '+')};
 }
 
-/// Of the first blade that is there.
+/// Panels of the first blade that is there.
 inline std::vector<std::string> blade_panels(const turbines::MachineLayout& layout) {
     if (layout.blade_numbers.empty()) return {};
     const std::string blade = text("blade ", layout.blade_numbers.front());
@@ -97,7 +96,7 @@ inline std::vector<std::string> blade_panels(const turbines::MachineLayout& layo
             text(blade, " root moment y+", blade, " root moment x")};
 }
 
-/// What there is of speeds, deflections and loads.
+/// Panels of speeds, deflections and loads, as far as there are any.
 inline std::vector<solvers::HistoryPanel> usual_panels(const turbines::MachineLayout& layout,
                                                        const std::vector<Channel>& channels) {
     std::vector<std::string> candidates{"RotSpeed",       "GenTq",           "teeter angle",     "yaw",

@@ -26,7 +26,7 @@ public:
     Option& required();
     Option& one_of(const std::vector<std::string>& allowed);
     Option& range(int least, int most);
-    /// Of numbers that are out of range an error says so: InputError, thrown by CommandLine::parse().
+    /// Refuses numbers that are out of range: InputError, thrown by CommandLine::parse().
     Option& finite();
     Option& positive();
     Option& not_negative();
@@ -34,14 +34,14 @@ public:
     Option& delimiter(char character);
     /// Every use takes one word; a list otherwise takes all words up to the next option.
     Option& one_word();
-    /// What help calls the value, instead of TEXT, INT or FLOAT.
+    /// Sets what help calls the value, instead of TEXT, INT or FLOAT.
     Option& type_name(const std::string& name);
-    /// For values that stand for something else: help is silent about them.
+    /// Hides a default that stands for something else from help.
     Option& hide_default();
     Option& excludes(const Option& other);
     Option& needs(const Option& other);
-    /// For what means nothing without another option: other values than the default are refused where that is not
-    /// given. The default is what results hold that were made without it.
+    /// Refuses values other than the default where another option, without which this means nothing, is not given. The
+    /// default is what results hold that were made without it.
     Option& only_with(const Option& other);
 
     /// "--name"
@@ -74,7 +74,7 @@ public:
 
     /// One of the subcommands must be given.
     CommandLine add_subcommand(const std::string& name, const std::string& what);
-    /// For a subcommand: options of the command line may follow it as well.
+    /// Lets a subcommand fall through: options of the command line may follow it as well.
     void fallthrough();
     /// The name of the subcommand that was given.
     std::string subcommand();

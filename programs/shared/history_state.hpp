@@ -1,5 +1,4 @@
-/// @file
-/// What state the file of a time history is in.
+/// @file State of the file of a time history.
 #pragma once
 
 #include "solvers/hdf5/history.hpp"

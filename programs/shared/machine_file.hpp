@@ -12,10 +12,10 @@
 
 namespace cardan::program {
 
-/// What may be given as a machine, with the names of the built-in ones: for the help of a program.
+/// Text on what may be given as a machine, with the names of the built-in ones: for the help of a program.
 std::string machine_help();
 
-/// What programs for any machine ask about it.
+/// Options of programs for any machine.
 struct MachineOptions {
     std::string model;
     std::string generator, yaw, tower, blades;             ///< of one_of(); empty: as the model says
@@ -27,22 +27,23 @@ struct MachineOptions {
     std::optional<double> blade_damping, tower_damping;    ///< %
     std::optional<double> pitch_stiffness, pitch_damping;  ///< N m/rad, N m s/rad
     bool gravity = false, undamped = false, notes = false, summary = false;
-    /// What the model's files ask for and the model does not have, as far as they have been read.
+    /// Entries that the model's files ask for and the model does not have, as far as they have been read.
     std::vector<turbines::FileNote> left_out = {};
 };
 
 /// The machine's argument.
 void add_machine(CommandLine& app, MachineOptions& options);
-/// What is added to the model, and what replaces its own settings.
+/// Adds options of what is added to the model, and of what replaces its own settings.
 void add_source_options(CommandLine& app, MachineOptions& options);
-/// The same, with pitch, numbers of elements, damping and what is printed; gravity is left to the program.
+/// Adds the options of the source, with pitch, numbers of elements, damping and what is printed; gravity is left to the
+/// program.
 void add_machine_options(CommandLine& app, MachineOptions& options);
 
 /// Prints notes, if `all` are wanted, else how many there are, in a line, and those on unusual entries. What several
 /// files have alike, as those of blades, is one note.
 /// @param what  they are: the begin of the line
 void print_notes(const std::vector<turbines::FileNote>& notes, bool all, const char* what = "notes");
-/// The same, and keeps what is left out.
+/// Prints notes, and keeps what is left out.
 void print_notes(const std::vector<turbines::FileNote>& notes, MachineOptions& options, const char* what = "notes");
 /// In a line, behind a result: what is left out.
 void print_left_out(const MachineOptions& options);
@@ -52,12 +53,12 @@ void print_left_out(const MachineOptions& options);
 /// @throws InputError also for a yaw bearing that is to be free without a spring
 turbines::Machine prepared_machine(MachineOptions& options);
 
-/// What the options say beside what prepared_machine() puts into the machine: pitch, numbers of elements, damping.
+/// Settings of the options beside what prepared_machine() puts into the machine: pitch, numbers of elements, damping.
 turbines::MachineSettings numbers_of(const MachineOptions& options);
 /// Puts what the library has taken there where nothing was given.
 void keep_taken(const turbines::MachineSettings& taken, MachineOptions& options);
 
-/// What the library has to say, on the terminal as it says it.
+/// A report that prints remarks on the terminal as the library makes them.
 /// @param all_notes  as print_notes()
 turbines::Report remarks_printed(bool all_notes);
 
@@ -70,7 +71,7 @@ turbines::PreparedTurbine ready_machine(const turbines::Machine& machine, Machin
 /// Beams, pitch, gravity and damping.
 turbines::AssemblyOptions assembly_options(const turbines::Machine& machine, const MachineOptions& options);
 
-/// As turbines::usual_frequency().
+/// Usual maximum frequency, as turbines::usual_frequency().
 double usual_frequency(const turbines::Machine& machine, const MachineOptions& options);
 
 /// Head of the input description of a result: the command with its options as they were used. Behind it stands

@@ -29,7 +29,7 @@ inline Vector named_values(const char* option, const std::vector<std::string>& g
     return initial;
 }
 
-/// Likewise as they are named, the last one of each name.  @throws InputError naming the option
+/// Numbers given as NAME=VALUE by their names, the last one of each name.  @throws InputError naming the option
 inline std::map<std::string, double> named_numbers(const char* option, const std::vector<std::string>& given) {
     constexpr auto allowed = "COORDINATE=NUMBER";
     std::map<std::string, double> all;

@@ -1,5 +1,4 @@
-/// @file
-/// What fields of the library's options are called on the command line: its errors and remarks name fields.
+/// @file Names on the command line of fields of the library's options: its errors and remarks name fields.
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-/// @file
-/// What the programs have in common: signals, errors and exit codes, an early check of the output files.
+/// @file Common parts of the programs: signals, errors and exit codes, an early check of the output files.
 #pragma once
 
 #include "mbs/base/error.hpp"
@@ -36,13 +35,13 @@ inline bool interrupted() {
     return interrupt != 0;
 }
 
-/// What is ignored, as under nohup, stays ignored.
+/// Sets the handler of the signals that end a program; what is ignored, as under nohup, stays ignored.
 inline void handle_signals(void (*handler)(int)) {
     for (const int signal : stopping_signals)
         if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-/// For a last part that is short, or leaves nothing behind: from here on such a signal ends the program at once.
+/// Lets such a signal end the program at once from here on, for a last part that is short or leaves nothing behind.
 inline void stop_at_once() {
     handle_signals(SIG_DFL);
     end_progress();
@@ -77,7 +76,7 @@ inline void check_outputs(const std::string& prefix, std::initializer_list<const
     }
 }
 
-/// What the assembly has to say, before the work.
+/// Prints what the assembly has to say, before the work.
 template <class Turbine>
 void introduce(const Turbine& turbine, bool summary) {
     if (summary) std::cout << turbine.summary() << "\n";
@@ -93,7 +92,7 @@ inline int shown(const char* name) {
     return 1;
 }
 
-/// What ends a program: its errors, and the signals that came.
+/// Runs the body of a program, and handles what ends it: its errors, and the signals that came.
 /// @param name  for messages
 /// @param body  returns an exit code, 130 if it was interrupted
 /// @return exit code; 1 after an error, which is printed with the name of the program; if it was interrupted 128 and
@@ -142,8 +141,8 @@ int run_program(const char* name, int argc, char** argv, int (*parse)(int, char*
     });
 }
 
-/// Likewise for a command that keeps its command line, to say in its files how they were made. Behind its result stands
-/// what is left out of its machine, print_left_out().
+/// Runs a command that keeps its command line, to say in its files how they were made. Behind its result stands what is
+/// left out of its machine, print_left_out().
 /// @param name     "cardan campbell"
 /// @param options  declares the options, with their targets in the arguments
 template <class Arguments>

@@ -1,5 +1,4 @@
-/// @file
-/// How far a program is, for people: on a terminal a line that changes, in files and pipes a line now and then.
+/// @file Progress of a program, for people: on a terminal a line that changes, in files and pipes a line now and then.
 #pragma once
 
 #include <chrono>
@@ -10,8 +9,8 @@
 
 namespace cardan::program {
 
-/// What is being done, in the place of what was: "wind speed 3 of 8". On a terminal it is shown at once. A line feed
-/// behind it: it is done, and stays there. A carriage return before it and spaces behind it mean nothing.
+/// Shows what is being done in the place of what was: "wind speed 3 of 8". On a terminal it is shown at once. A line
+/// feed behind it: it is done, and stays there. A carriage return before it and spaces behind it mean nothing.
 void progress(const std::string& what);
 
 /// Takes the line off a terminal, for what is printed in its place. What is being done is still known.

@@ -1,5 +1,4 @@
-/// @file
-/// What the library has to say, on the terminal.
+/// @file Remarks of the library on the terminal.
 #pragma once
 
 #include "programs/shared/option_names.hpp"
@@ -11,7 +10,7 @@
 
 namespace cardan::program {
 
-/// With options in the place of fields. Entries of files are left out: print_notes() has them.
+/// Prints a remark with options in the place of fields. Entries of files are left out: print_notes() has them.
 inline void print_remark(const turbines::Remark& remark) {
     using Kind = turbines::Remark::Kind;
     const std::string words = in_options(remark.text);

@@ -1,6 +1,5 @@
-/// @file
-/// What the programs that simulate in time have in common: rows on their way to a file, a first look at loads, checks,
-/// pictures.
+/// @file Common parts of the programs that simulate in time: rows on their way to a file, a first look at loads,
+/// checks, pictures.
 #pragma once
 
 #include "mbs/base/types.hpp"
@@ -114,9 +113,9 @@ inline bool check(const char* what, double error, double allowed) {
     return holds;
 }
 
-/// For a machine that does not turn, where there may be no kinetic energy to measure an error by: the most that kinetic
-/// energy, potential energy or the work of the drives range over in a run, J; at least 1 J, for a machine at rest
-/// exchanges nothing.
+/// Energy exchanged in a machine that does not turn, where there may be no kinetic energy to measure an error by: the
+/// most that kinetic energy, potential energy or the work of the drives range over in a run, J; at least 1 J, for a
+/// machine at rest exchanges nothing.
 inline double exchanged_energy(const solvers::History& history) {
     double most = 1;
     for (const char* name : {"kinetic energy", "potential energy", "energy from drives"}) {
@@ -140,8 +139,8 @@ inline bool check_energy(const solvers::EnergyBalance& end, double scale, double
                  end.error / scale, allowed);
 }
 
-/// The same of elements with states, the fields of electric machines, by the largest energy in motion or fields: where
-/// the rotor hardly turns yet, nearly all of it is in the fields.
+/// Checks the energy of elements with states, the fields of electric machines, by the largest energy in motion or
+/// fields: where the rotor hardly turns yet, nearly all of it is in the fields.
 inline bool check_field_energy(const solvers::EnergyBalance& end, const solvers::History& history, double allowed) {
     const double scale = std::max(largest(history, "kinetic energy").value, largest(history, "energy in states").value);
     std::printf("fields, kJ: stored %.3f, from the grid %.3f, lost in resistances %.3f, error %.2e\n", end.stored / 1e3,
@@ -168,7 +167,7 @@ inline void print_effort(const solvers::Integrator& integrator, const System& sy
         integrator.time(), elapsed.wall, elapsed.processor, integrator.time() / std::max(elapsed.processor, 1e-9));
 }
 
-/// Which part of a run a picture of spectra shows, and how.
+/// Options of the part of a run that a picture of spectra shows, and of how.
 struct SpectraOptions {
     double from = -1e300, to = 1e300;  ///< s
     double rotor_speed = 0;            ///< rad/s, for the lines nP; about zero: none

@@ -42,7 +42,7 @@ inline void check_run_options(const RunArguments& a) {
     if (a.order < 0 || a.order > 5) throw InputError("--order", "highest order", a.order, "0 ... 5");
 }
 
-/// What makes a run but its length, for its file: who goes on with it must want the same.
+/// Options of a run but its length, for its file: who goes on with it must want the same.
 inline std::string options_text(const RunArguments& a) {
     return text("method ", a.method, ", order ", a.order, ", tolerance ", a.tolerance, ", step ", a.step, " s");
 }

@@ -17,7 +17,7 @@ inline double number(const char* option, const std::string& given, const std::st
     return read.value;
 }
 
-/// What stands between separators, empty words included; at least one.
+/// Words between separators, empty words included; at least one.
 inline std::vector<std::string> split(const std::string& joined, char separator) {
     std::vector<std::string> words;
     for (std::size_t at = 0; at <= joined.size();) {
