@@ -13,9 +13,9 @@ namespace cardan {
 enum class BaseCoordinate : std::uint8_t { surge, sway, heave, roll, pitch, yaw };
 
 struct MovingBaseOptions {
-    /// Unit vectors of surge, sway, heave, roll, pitch, yaw in this order: each is along or about which the coordinate
-    /// is positive (rotations right-handed), in the carrier's axes at rest. The default with x downwind and z up is
-    /// that of OpenFAST: positive pitch moves the top of the tower downwind.
+    /// Unit vectors along or about which surge, sway, heave, roll, pitch and yaw, in this order, are positive (rotations
+    /// right-handed), in the carrier's axes at rest. The default with x downwind and z up is that of OpenFAST: positive
+    /// pitch moves the top of the tower downwind.
     std::array<Vec3, 6> directions{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(),
                                    Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
     /// Order of the rotations, the first one about an axis of the carrier: R = R_first R_second R_third. The middle

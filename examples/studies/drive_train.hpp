@@ -12,7 +12,7 @@
 
 namespace cardan::program {
 
-/// Of all coordinates, the spin among them, linearised about a steady rotation.
+/// System of all coordinates, the spin among them, linearised about a steady rotation.
 inline solvers::SecondOrderSystem multi_blade_system(const turbines::Turbine& turbine, const DynamicState& at) {
     const int spin = turbine.rotor().spin;
     std::vector<int> all(static_cast<std::size_t>(turbine.system().model.size()));
@@ -22,7 +22,8 @@ inline solvers::SecondOrderSystem multi_blade_system(const turbines::Turbine& tu
     return coleman.transform(solvers::restrict_to(lin, all, spin), at.q(spin), at.qd(spin));
 }
 
-/// Of the modes up to a frequency that one with the largest part of its elastic energy in the main shaft.
+/// Mode of the drive train: among those up to a frequency the one with the largest part of its elastic energy in the
+/// main shaft.
 /// @param system  over all coordinates, and its modes
 /// @throws NumericalError if there is none
 inline solvers::Mode drive_train_mode(const turbines::Turbine& turbine, const solvers::SecondOrderSystem& system,

@@ -30,7 +30,7 @@ struct MotionOption {
     solvers::Motion motion(double unit) const;
 };
 
-/// What the options of motions have in common, for the help of a program.
+/// Common part of the options of motions, for the help of a program.
 inline constexpr auto motion_help =
     "A motion is mean + velocity t + amplitude sin(2 pi t / period + phase), written as\n"
     "  --pitch mean=0,amplitude=5,period=9.9,phase=0     or     --heave velocity=1\n"

@@ -1,5 +1,4 @@
-/// @file
-/// What short studies with one picture have in common.
+/// @file Common parts of short studies with one picture.
 #pragma once
 
 #include "programs/shared/program.hpp"

@@ -1,5 +1,4 @@
-/// @file
-/// What the programs about the two-bladed teetered machine have in common: the machine and its periodic system.
+/// @file Common parts of the programs about the two-bladed teetered machine: the machine and its periodic system.
 #pragma once
 
 #include "mbs/base/units.hpp"
@@ -46,7 +45,7 @@ inline turbines::Turbine machine(const TeeteredArguments& a) {
     return turbines::assemble(description, options);
 }
 
-/// Which elements these are, for tables and titles.
+/// Adds the elements to a diagram's description, for tables and titles.
 inline void tell_elements(solvers::Campbell& diagram, const turbines::Turbine& machine) {
     diagram.accuracy = turbines::in_words(machine.mesh());
     diagram.remark += text(diagram.remark.empty() ? "" : "; ", "elements of the paper");

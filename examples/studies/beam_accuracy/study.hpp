@@ -15,7 +15,7 @@ struct Quantity {
     std::string source;  ///< of the reference
 };
 
-/// What a run must show; the program says so and fails if it does not.
+/// Check of a run's result; the program says so and fails if it does not.
 struct Check {
     enum class Kind : std::uint8_t { order, error };
     Kind kind;

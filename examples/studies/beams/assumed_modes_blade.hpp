@@ -37,7 +37,7 @@ struct AssumedModesMatrices {
     Vector f;          ///< loads of gravity and of the frame's motion
 };
 
-/// Which deflection a coordinate describes.
+/// Deflection that a coordinate describes.
 enum class Deflection : std::uint8_t { edge, flap, torsion, extension, mixed };
 
 /// Force and moment that the frame exerts on the blade at its root, N and N m, in the frame's axes.
@@ -65,7 +65,7 @@ public:
     /// Linear approximation, from the accelerations of the blade.
     RootLoad root_load(const HubMotion& motion, const Vector& q, const Vector& qd, const Vector& qdd) const;
 
-    /// This blade in reduced coordinates, q = columns * q_reduced, for instance some of its natural modes.
+    /// The blade in reduced coordinates, q = columns * q_reduced, for instance some of its natural modes.
     AssumedModesBlade reduced(const Matrix& columns) const;
 
 private:

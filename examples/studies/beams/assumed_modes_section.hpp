@@ -10,7 +10,7 @@
 
 namespace cardan {
 
-/// Where the axial load n(x) per length is integrated from to give the tension T(x) that stiffens the blade.
+/// Place from which the axial load n(x) per length is integrated to give the tension T(x) that stiffens the blade.
 enum class TensionIntegral : std::uint8_t {
     from_free_tip,  ///< T(x) = int_x^L n dx: zero at the free tip. Correct.
     wrong_end       ///< T(x) = int_0^x n dx: WRONG, zero at the root; only to reproduce a table of the 2018 paper
@@ -60,7 +60,7 @@ struct AxialLoad {
     static std::vector<Point> along(const BeamLine& line, std::span<const double> ends, TensionIntegral from);
 };
 
-/// Both ends of the line and the stations between them, ascending, m.
+/// Ends of the line and the stations between them, ascending, m.
 std::vector<double> station_ends(const BeamLine& line);
 
 /// The beam stretched by its steady axial loads, T(x) / EA, with the same mass and bending compliance; the mean strain

@@ -25,8 +25,8 @@ struct HubMotion {
     HubMotion moved(const Vec3& p, const Vec3& p_dot = Vec3::Zero(), const Vec3& p_ddot = Vec3::Zero()) const;
     /// A frame with the same origin, turned by an angle about a unit vector, right-handed.
     HubMotion turned(const Vec3& axis, const PrescribedCoordinate& angle) const;
-    /// With dA/dt and dB/dt left out, as in Annex A of the paper. This is not correct mechanics: since dB/dt is the
-    /// derivative of the components, not even a steady velocity of the rotating frame drops out.
+    /// A copy with dA/dt and dB/dt left out, as in Annex A of the paper. This is not correct mechanics: since dB/dt is
+    /// the derivative of the components, not even a steady velocity of the rotating frame drops out.
     HubMotion without_derivatives() const;
 
     /// Acceleration of a point at rest in the frame, minus gravity, is origin_acceleration() + spin_matrix() p.

@@ -49,7 +49,7 @@ struct MixedField {
     static constexpr Eigen::Index Omega = 15;  ///< inertial angular velocity, section axes, rad/s
 };
 
-/// What the carrier imposes on the beam, components in root axes.
+/// Motion that the carrier imposes on the beam, components in root axes.
 template <class S>
 struct MixedRootMotionT {
     Vec3T<S> v = Vec3T<S>::Zero();      ///< inertial velocity of the undeformed root point, m/s
@@ -145,7 +145,7 @@ struct MixedPin {
     RigidInertia body = {};     ///< turns with the root (arm, a blade's share of the hub); root point and axes
 };
 
-/// How a beam is held and loaded: steady root motion, hinge, tip loads. A steady state requires compatible omega and g:
+/// Support and loads of a beam: steady root motion, hinge, tip loads. A steady state requires compatible omega and g:
 /// one of them zero, or both parallel.
 struct MixedSetting {
     Vec3 omega = Vec3::Zero();          ///< constant angular velocity of the root axes, rad/s

@@ -20,7 +20,7 @@ AssumedModesBlade nrel5mw_blade_of_2018(TensionIntegral tension = TensionIntegra
 AssumedModesBlade nrel5mw_blade_of_2018(const AssumedModesBasis& basis, TensionIntegral tension,
                                         const BeamLine& line = nrel5mw_blade().line);
 
-/// The same blade with a convergent basis, cubics for v and w and quadratics for torsion and extension between all
+/// The NREL 5 MW blade with a convergent basis, cubics for v and w and quadratics for torsion and extension between all
 /// stations, with rotary inertia: 384 coordinates.
 AssumedModesBlade nrel5mw_blade_converged(const BeamLine& line = nrel5mw_blade().line);
 

@@ -41,7 +41,7 @@ struct NamedModes {
 };
 /// @throws NumericalError if one of them is missing
 NamedModes named_modes(const AssumedModesBlade& blade, double rpm);
-/// With the velocity terms, that is, Coriolis forces.
+/// Frequencies with the velocity terms, that is, Coriolis forces.
 Frequencies gyroscopic_frequencies(const AssumedModesBlade& blade, double rpm);
 /// By converged functions with the velocity terms, of the blade stretched by its centrifugal force.
 Frequencies stretched_frequencies(double rpm);

@@ -20,7 +20,7 @@ struct LoopOptions {
 /// @return exit code: 3, the response shows others than the eigenvalue
 int loop(const MachineOptions& machine, const LoopOptions& options, const std::string& out);
 
-/// What the speed loop of a rigid machine has beside the gains of its PI controller.
+/// Parts that the speed loop of a rigid machine has beside the gains of its PI controller.
 struct RigidParts {
     bool schedule = true;  ///< the gain changes with the pitch, and multiplies the integral: h below, else 0
     bool power = true;     ///< the generator's torque falls with the speed: P below, else 0
@@ -36,7 +36,7 @@ struct RigidParts {
 /// the pair of roots that oscillates and is lowest in frequency.
 /// @param inertia  J, kg m^2
 Complex rigid_loop(const SteadyPoint& point, double inertia, const RigidParts& parts = {});
-/// Of the elastic machine the mode nearest to that of the rigid one.  @throws NumericalError if there is none
+/// Mode of the elastic machine nearest to that of the rigid one.  @throws NumericalError if there is none
 const solvers::Mode& elastic_loop(const LinearLoop& loop, Complex rigid);
 
 }  // namespace cardan::controlled

@@ -39,14 +39,14 @@ Plant plant(const MachineOptions& options, double wind);
 /// report.
 turbines::ActuatorOptions pitch_actuators();
 
-/// With the load, pitch and torque of the generator held.
+/// The machine with the load, pitch and torque of the generator held.
 turbines::Turbine open_loop(const Plant& plant);
 
 /// Under the program, with the torque of a wind that changes.
 turbines::ControlledMachine sampled_machine(const Plant& plant, const std::function<double(double time)>& wind,
                                             const DamperOptions& damper,
                                             const turbines::ActuatorOptions& actuators = pitch_actuators());
-/// That load: for channels and loads by equilibrium.
+/// The load of the wind on the rotor: for channels and loads by equilibrium.
 RotorLoad rotor_in_wind(const Plant& plant, const std::function<double(double time)>& wind);
 
 /// The continuous loop in multi-blade coordinates, linearised about its trim.
@@ -59,7 +59,8 @@ LinearLoop linear_loop(const Plant& plant, const DamperOptions& damper);
 
 /// Inertia of all that turns, on the slow side, kg m^2.
 double rotor_inertia(const Plant& plant);
-/// Of modes up to 5 Hz that one with the largest part of its elastic energy in the main shaft.
+/// Mode of the drive train: among those up to 5 Hz the one with the largest part of its elastic energy in the main
+/// shaft.
 /// @throws NumericalError if there is none
 solvers::Mode drive_train_mode(const LinearLoop& loop);
 

@@ -1,6 +1,5 @@
-/// @file
-/// What the wind does to the rotor of the NREL 5 MW machine, without an aerodynamic model: a torque that depends on
-/// wind speed and pitch.
+/// @file Effect of the wind on the rotor of the NREL 5 MW machine, without an aerodynamic model: a torque that depends
+/// on wind speed and pitch.
 #pragma once
 
 #include "elements/machine/rotor_load.hpp"
@@ -34,7 +33,7 @@ inline constexpr double rated_speed = 1173.7 * units::rpm / gear_ratio;
 /// design of the controller.
 RotorCurve::Value rotor_torque(double wind, double pitch);
 
-/// Where the machine is in steady operation under the baseline controller.
+/// Point of steady operation of the machine under the baseline controller.
 struct SteadyPoint {
     double wind, rotor_speed, pitch;  ///< m/s, rad/s, rad
     double rotor_torque, torque;      ///< N m; of the generator
@@ -50,12 +49,12 @@ struct WindSteps {
 
     double at(double time) const;
     double duration() const { return every * static_cast<double>(winds.size()); }
-    /// Where its slope changes.
+    /// Times at which the slope changes.
     std::vector<double> breaks() const;
 };
 /// "8,10,13"  @throws InputError naming the option
 std::vector<double> winds(const char* option, const std::string& given);
-/// Likewise where the pitch is controlled.  @throws InputError also at and below rated wind
+/// Wind speeds at which the pitch is controlled.  @throws InputError also at and below rated wind
 std::vector<double> winds_above_rated(const char* option, const std::string& given);
 
 }  // namespace cardan::controlled

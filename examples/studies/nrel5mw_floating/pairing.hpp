@@ -1,5 +1,4 @@
-/// @file
-/// Which mode of one machine is which of another: by their shapes, since names may change hands where modes meet.
+/// @file Pairing of the modes of two machines: by their shapes, since names may change hands where modes meet.
 #pragma once
 
 #include "solvers/campbell/diagram.hpp"

@@ -1,5 +1,4 @@
-/// @file
-/// What a run leaves behind: which channels are recorded, the table of the last period, the pictures.
+/// @file Files that a run leaves behind: channels that are recorded, the table of the last period, the pictures.
 #pragma once
 
 #include "solvers/time/recorder.hpp"
@@ -25,7 +24,7 @@ inline const std::initializer_list<const char*> outputs{".h5", ".csv", ".svg", "
 /// the first line, SI.
 void write_csv(const turbines::Turbine& machine, const solvers::History& period, const std::string& path);
 
-/// What the pictures show.
+/// Options of what the pictures show.
 struct PictureOptions {
     double period = 0;       ///< s
     double periodic_to = 0;  ///< s, end of the rows in equal steps: that of the transient

@@ -33,7 +33,7 @@ struct ReferenceCase {
 /// "none" and "pitch".
 const std::vector<ReferenceCase>& reference_cases();
 
-/// What is compared: channel of blade 1, its name in the table, its unit there in SI.
+/// Signal that is compared: channel of blade 1, its name in the table, its unit there in SI.
 struct SignalName {
     const char *channel, *name;
     double unit;

@@ -18,8 +18,8 @@ struct KnownMode {
     int figure = 0;                   ///< that shows it, 0: none
 };
 
-/// For a tower of `ratio` times the rigidity of the blades; rigid tower: infinite. References are known for 100 and the
-/// rigid tower, values of the paper also for 10 and 1000; for other ratios there are names only.
+/// Known modes for a tower of `ratio` times the rigidity of the blades; rigid tower: infinite. References are known for
+/// 100 and the rigid tower, values of the paper also for 10 and 1000; for other ratios there are names only.
 std::vector<KnownMode> known_modes(double ratio);
 
 }  // namespace cardan::teetered
