@@ -32,14 +32,14 @@ public:
     /// Makes a polar of one table.
     Polar(std::string name, std::vector<double> angles, std::vector<double> lift, std::vector<double> drag,
           std::vector<double> moment);
-    /// Between two profiles: (1 - share) a + share b, over the angles and Reynolds numbers of both.
+    /// A polar between those of two airfoils: (1 - share) a + share b, over the angles and Reynolds numbers of both.
     static Polar mixed(std::string name, const Polar& a, const Polar& b, double share);
 
     /// Coefficients of the first table.
     Point at(double angle) const;
     Point at(double angle, double reynolds) const;
     const std::string& name() const { return name_; }
-    /// Has it several tables?
+    /// Whether the polar has several tables.
     bool over_reynolds() const { return tables_.size() > 1; }
     std::vector<double> reynolds() const;  ///< of the tables
     std::size_t tables() const { return tables_.size(); }
@@ -49,8 +49,8 @@ public:
         double slope = 0, offset = 0;
     };
     const LiftLine& lift_line() const { return lift_line_; }
-    /// Does the lift rise at half of its steepest slope, or more, all the way from no angle of attack to this one? Of a
-    /// profile without lift everywhere. Of the first table, between -pi and pi.
+    /// Whether the lift rises at half of its steepest slope, or more, all the way from no angle of attack to this one?
+    /// Of a profile without lift everywhere. Of the first table, between -pi and pi.
     bool is_attached(double angle) const { return angle >= attached_from_ && angle <= attached_to_; }
     /// Points of the first table beyond, up to a right angle, at which the lift loses slope away from zero, rad.
     const std::vector<double>& stalls() const { return stalls_; }

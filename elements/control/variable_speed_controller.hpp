@@ -56,9 +56,9 @@ struct VariableSpeedParameters {
     std::vector<PitchAtSpeed> least_pitches = {};
     double largest_pitch_rate = 0;  ///< rad/s
 
-    /// From optimum_from up to the rated speed.
+    /// Torque law from optimum_from up to the rated speed.
     TorqueLaw torque_law() const { return {rated_speed, rated_power / rated_speed, optimal_gain, slip}; }
-    /// At a filtered speed of the generator, rad.
+    /// Minimum pitch at a filtered speed of the generator, rad.
     double least_pitch_at(double speed) const;
     /// @throws InputError naming the parameter
     void check() const;

@@ -32,7 +32,7 @@ struct VoltageSource {
     ControlSignal signal = signal::constant(0);         ///< V
     std::vector<double> breaks = {};                    ///< times, s, at which over_time is not smooth
 };
-/// In what follows currents are positive from `from` to `to`.
+/// A resistor; its current, as that of every element below, is positive from `from` to `to`.
 struct Resistor {
     std::string name, from, to;
     double resistance = 0;  ///< ohm, > 0
@@ -69,7 +69,7 @@ public:
     /// @throws InputError for an empty name and for scales that are not positive
     explicit Circuit(Options options);
 
-    /// All throw InputError for a name that is taken, equal nodes, and values out of range.
+    /// Every add_...() throws InputError for a name that is taken, equal nodes, and values out of range.
     void add_source(VoltageSource source);
     void add_resistor(const Resistor& resistor);
     void add_capacitor(const Capacitor& capacitor);

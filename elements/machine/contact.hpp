@@ -61,7 +61,7 @@ struct StribeckFriction {
     void check(const std::string& where) const;
 };
 
-/// On a coordinate, against its rate as seen from a surface that moves along it.
+/// Adds friction on a coordinate, against its rate as seen from a surface that moves along it.
 /// @param surface_speed  of the surface, m/s or rad/s
 ForceElement friction_force(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed = 0);
 

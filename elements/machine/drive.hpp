@@ -34,7 +34,7 @@ public:
 
     Travel::State at(double time) const { return travel_.at(time); }
     double target() const { return travel_.target(); }
-    /// When it comes to rest, s.
+    /// Time at which the drive comes to rest, s.
     double arrival() const { return travel_.arrival(); }
     /// Times at which a higher derivative jumps: breaks for the integration, if the command is known before it starts.
     std::vector<double> breaks() const { return travel_.breaks(); }

@@ -28,7 +28,7 @@ struct JointedFrame {
 JointedFrame add_joint(Tree& tree, FrameId carrier, JointKind kind, Axis axis, const std::string& name,
                        const PartLabel& label, const Vec3& offset = Vec3::Zero(),
                        CoordinateRole role = CoordinateRole::free);
-/// At its origin. (In place of the offset `{}` would be a vector without values.)
+/// Adds a joint at the origin of its carrier. (In place of the offset `{}` would be a vector without values.)
 JointedFrame add_joint(Tree& tree, FrameId carrier, JointKind kind, Axis axis, const std::string& name,
                        const PartLabel& label, CoordinateRole role);
 

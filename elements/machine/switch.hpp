@@ -17,7 +17,7 @@ public:
     bool is_on() const { return on_; }
     /// Time of the last change, s; minus infinity before the first one.
     double since() const { return since_; }
-    /// No effect if it already is in this position.
+    /// Turns the switch, without effect if it already is in this position.
     void turn(bool on, double time) {
         if (on == on_) return;
         on_ = on;

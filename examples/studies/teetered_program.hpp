@@ -51,7 +51,7 @@ inline void tell_elements(solvers::Campbell& diagram, const turbines::Turbine& m
     diagram.remark += text(diagram.remark.empty() ? "" : "; ", "elements of the paper");
 }
 
-/// By Floquet's theory, up to a frequency in Hz.
+/// Options of a diagram by Floquet's theory, up to a frequency in Hz.
 inline solvers::CampbellOptions campbell_options(const TeeteredArguments& a, const turbines::Turbine& machine,
                                                  double max_frequency_hz) {
     solvers::CampbellOptions options = campbell_options(max_frequency_hz);

@@ -38,7 +38,7 @@ std::string text(const Parts&... parts) {
 
 /// The shortest digits that give the same double again: "0.1", "1e+300", "inf", "-nan".
 [[nodiscard]] std::string digits(double value);
-/// In the given form with so many digits behind the point, as printf's %f and %e.
+/// Text of a number in the given form with so many digits behind the point, as printf's %f and %e.
 [[nodiscard]] std::string digits(double value, std::chars_format form, int places);
 
 /// A word as a number.

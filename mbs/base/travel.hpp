@@ -27,14 +27,14 @@ public:
         double position = 0, rate = 0, acceleration = 0;
     };
 
-    /// At rest at a position. @throws InputError if it is not finite
+    /// Stands at rest at a position. @throws InputError if it is not finite
     explicit Travel(double position);
-    /// From a state at a time to rest at `to`. If the initial rate leads away from the target or past it, the travel
-    /// reverses; a rate or acceleration that exceeds its limit at the start is first brought back within it.
+    /// Moves from a state at a time to rest at `to`. If the initial rate leads away from the target or past it, the
+    /// travel reverses; a rate or acceleration that exceeds its limit at the start is first brought back within it.
     /// @throws InputError for values that are not finite, limits that are not positive, or numbers so large or small
     ///         that the travel would never arrive
     Travel(double time, const State& from, double to, const TravelLimits& limits);
-    /// At a constant rate, arriving after `duration`; the rate jumps at both ends.
+    /// Moves at a constant rate, arriving after `duration`; the rate jumps at both ends.
     /// @throws InputError for values that are not finite, a duration that is not positive
     static Travel straight(double time, double from, double to, double duration);
 

@@ -38,7 +38,7 @@ struct FrameLoad {
     /// Times, s, ascending, across which `over_time` is not smooth: integration restarts there.
     std::vector<double> breaks = {};
 
-    /// At a time, in its own axes.
+    /// Wrench at a time, in its own axes.
     Wrench at(double time) const {
         if (!over_time) return wrench;
         const Wrench more = over_time(time);
@@ -123,7 +123,7 @@ public:
 
     /// @throws InputError if there are elements with states: for analyses that do not know them
     void require_no_states(const char* where) const;
-    /// There are states, inputs, or elements that tell their whole balance of energy.
+    /// Whether there are states, inputs, or elements that tell their whole balance of energy.
     bool has_states() const { return !states().empty() || !inputs().empty() || elements_.tells_power(); }
     const StateTable& states() const { return elements_.states(); }
     const InputTable& inputs() const { return elements_.inputs(); }

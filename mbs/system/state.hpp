@@ -26,12 +26,12 @@ struct DynamicState : State {
     Vector lambda = {};    ///< multipliers of the loops, Loops::equations()
 };
 
-/// At time 0 at position q, without motion.
+/// A state at time 0 at position q, without motion.
 inline DynamicState at_rest(const Vector& q) {
     const Vector zero = Vector::Zero(q.size());
     return {{.q = q, .qd = zero}, zero};
 }
-/// At the origin of n coordinates.
+/// A state at the origin of n coordinates, without motion.
 inline DynamicState at_rest(Eigen::Index n) {
     return at_rest(Vector(Vector::Zero(n)));
 }

@@ -27,7 +27,7 @@ std::vector<Option> add_profile_options(CommandLine& app, AirArguments& argument
 std::vector<Option> add_air_options(CommandLine& app, AirArguments& arguments);
 /// Adds the option of commands whose wake is in equilibrium, or none.
 Option add_wake_option(CommandLine& app, AirArguments& arguments);
-/// In the library's own terms.
+/// Arguments as settings of the library.
 turbines::AirSettings settings_of(const AirArguments& arguments);
 
 /// Puts the airfoils that were asked for in the place of the machine's, and prints the notes on those it has then.

@@ -20,7 +20,7 @@ struct RevolutionOptions {
     StationOptions stations;
 };
 
-/// All channels at all states.
+/// History of all channels at all states.
 inline solvers::History history_of(const System& system, std::span<const ChannelGroup> groups,
                                    const std::vector<DynamicState>& states, std::string title) {
     solvers::History history;

@@ -23,7 +23,7 @@ struct WindCurves {
 
 WindCurves curves_of(const WindResults& results);
 
-/// Does a file hold operating points over the wind?
+/// Whether a file holds operating points over the wind.
 bool is_wind_result(const std::filesystem::path& path);
 /// @throws FileError
 WindCurves read_wind_curves(const std::filesystem::path& path, std::string name);

@@ -20,7 +20,7 @@ WindResults wind_results(const turbines::WindOperation& machine, std::vector<tur
                          const StationOptions& stations, std::string title);
 
 void print(const WindResults& results);
-/// In one line what another mesh says of the same operation.
+/// Results of another mesh for the same operation, in one line.
 /// @param finer  a single point
 std::string beside(const WindResults& results, std::size_t point, const WindResults& finer);
 /// PREFIX.csv, PREFIX_sections.csv.  @throws FileError

@@ -46,7 +46,7 @@ inline solvers::CampbellOptions campbell_options(double max_frequency_hz) {
     return options;
 }
 
-/// To standard output.  @throws FileError
+/// Prints a table to standard output.  @throws FileError
 inline void print_table(const solvers::Campbell& diagram, bool states = false) {
     if (!(std::cout << solvers::table(diagram, states) << std::flush))
         throw FileError("standard output", "the table could not be written");

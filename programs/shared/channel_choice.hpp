@@ -35,7 +35,7 @@ inline turbines::Stations stations_of(const StationOptions& options) {
     return {.blades = places("--blade-stations", options.blades), .tower = places("--tower-stations", options.tower)};
 }
 
-/// Are all stations on the machine's blades and tower? Asked before the work.  @throws InputError
+/// Checks before the work that all stations are on the machine's blades and tower.  @throws InputError
 inline void check_stations(const turbines::Machine& machine, const MachineOptions& machine_options,
                            const StationOptions& options) {
     const turbines::Stations stations = stations_of(options);

@@ -32,7 +32,7 @@ public:
     Option& not_negative();
     /// Separates the values within one word.
     Option& delimiter(char character);
-    /// Every use takes one word; a list otherwise takes all words up to the next option.
+    /// Lets every use take one word; a list otherwise takes all words up to the next option.
     Option& one_word();
     /// Sets what help calls the value, instead of TEXT, INT or FLOAT.
     Option& type_name(const std::string& name);
@@ -69,7 +69,7 @@ public:
     Option add_option(const std::string& name, std::vector<std::string>& target, const std::string& what);
     /// @param name  "--name", or "--name,!--opposite"
     Option add_flag(const std::string& name, bool& target, const std::string& what);
-    /// Behind the options of the help, and of that of subcommands added later.
+    /// Sets the text behind the options of the help, and of that of subcommands added later.
     void footer(const std::string& text);
 
     /// One of the subcommands must be given.

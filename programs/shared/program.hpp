@@ -112,7 +112,8 @@ int with_errors(const char* name, const Body& body) {
     return interrupted() ? 128 + interrupt : code;
 }
 
-/// From here on signals are caught, and long work is told of; what there is no memory for is an error with advice.
+/// Prepares a program: from here on signals are caught, and long work is told of; what there is no memory for is an
+/// error with advice.
 /// @param name  of the program
 template <class Body>
 int working(const char* name, const Body& body) {

@@ -31,7 +31,7 @@ inline void add_run_options(CommandLine& app, RunArguments& a) {
     add_integration_options(app, a);
 }
 
-/// Before any file is begun.  @throws InputError
+/// Checks the options of a run before any file is begun.  @throws InputError
 inline void check_run_options(const RunArguments& a) {
     require_positive("--duration", "value", a.duration);
     require_positive("--step", "value", a.step);
@@ -77,7 +77,7 @@ private:
 /// Receives the rows of a recorder, and shows on a terminal how far things are.
 class Rows {
 public:
-    /// To a new file, PREFIX.h5.
+    /// Rows on their way to a new file, PREFIX.h5.
     /// @param description  of the machine, for the file
     Rows(const std::string& title, const std::string& description, const RunArguments& a,
          solvers::Integrator& integrator, const solvers::Recorder& recorder)

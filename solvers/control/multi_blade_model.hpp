@@ -36,7 +36,7 @@ struct MultiBladeModel : ConstantModel {
 /// would not show
 MultiBladeModel multi_blade(const LinearModel& model, const RotorMap& rotor);
 
-/// Are so many azimuths of a revolution enough for a turning rotor?
+/// Checks that so many azimuths of a revolution are enough for a turning rotor.
 /// @throws InputError unless the rotor stands in three different ways at them
 void check_azimuths(std::size_t azimuths, int blades);
 

@@ -72,8 +72,8 @@ public:
     /// @throws InputError, which leaves the history as it was, or FileError
     void append(double time, std::span<const double> values);
 
-    /// From now on each flush stores a checkpoint from this source together with the rows; an empty function ends that.
-    /// The checkpoint's time must not lie before the last row.
+    /// Makes each flush from now on store a checkpoint from this source together with the rows; an empty function ends
+    /// that. The checkpoint's time must not lie before the last row.
     void take_checkpoints(std::function<Checkpoint()> source);
     /// Hands all rows to the operating system, with a checkpoint if there is a source.
     void flush();

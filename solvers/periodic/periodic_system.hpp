@@ -66,7 +66,7 @@ std::vector<int> independent_coordinates(const System& system, const PeriodicSte
 /// do not exist; as independent_coordinates()
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about, std::vector<int> unknowns,
                           std::vector<int> independent = {});
-/// Over all free coordinates but the spin.
+/// The linearised system over all free coordinates but the spin.
 PeriodicSystem linearised(const System& system, const PeriodicSteadyState& about);
 PeriodicSystem linearised(System&&, const PeriodicSteadyState&, std::vector<int>,
                           std::vector<int> = {}) = delete;                 // the system must live longer

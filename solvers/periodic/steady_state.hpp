@@ -76,7 +76,7 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     Vector turns = {};
 
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }
-    /// All coordinates with rates and accelerations, states and multipliers; time = psi / rotor_speed.
+    /// State of all coordinates with rates and accelerations, states and multipliers; time = psi / rotor_speed.
     DynamicState at(double psi) const;
     /// Largest amplitude sqrt(hc_j^2 + hs_j^2) of any coordinate in harmonic j (|h0| for j = 0), rad or m.
     double amplitude(int harmonic) const;

@@ -30,8 +30,8 @@ ShownUnits shown_units(const Channel& channel, AngleUnits angles);
 /// @param largest  absolute value in these units; 0 or not finite: no prefix
 ShownUnits with_prefix(std::string_view units, double largest);
 
-/// In ordinary notation: "m s-2" is "m/s²", "N m rad-1" is "N m/rad", "kg m2" is "kg m²"; a pure number ("1", "-") is
-/// "–". What is not in the notation of the channels stays as it is.
+/// A unit in ordinary notation: "m s-2" is "m/s²", "N m rad-1" is "N m/rad", "kg m2" is "kg m²"; a pure number ("1",
+/// "-") is "–". What is not in the notation of the channels stays as it is.
 std::string display_text(std::string_view units);
 
 /// Units of a power spectral density of a channel, in ordinary notation: "m²/Hz", "(N m)²/Hz".

@@ -17,7 +17,7 @@ struct History {
     std::vector<double> time;                 ///< s, rising
     std::vector<std::vector<double>> values;  ///< one row per channel, as long as time
 
-    /// By name or alias.  @throws InputError naming the channel and those that resemble it
+    /// Index of a channel by name or alias.  @throws InputError naming the channel and those that resemble it
     std::size_t index(std::string_view channel) const;
     const std::vector<double>& operator[](std::string_view channel) const { return values[index(channel)]; }
 };

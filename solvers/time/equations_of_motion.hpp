@@ -130,7 +130,7 @@ public:
     const std::vector<StateGroup>& state_groups() const { return forces_->state_groups(); }
     /// Derivatives of the states' part at the last linearise...(), by all coordinates.
     const StateDerivatives& state_derivatives() const { return force_derivatives_.states; }
-    /// From the unknowns to all coordinates, zero for the driven ones, and back.
+    /// Spreads the unknowns to all coordinates, zero for the driven ones; gather() goes back.
     void spread(VectorIn unknowns, Vector& all) const;
     void gather(const Vector& all, VectorOut unknowns) const;
 

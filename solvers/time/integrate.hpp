@@ -144,9 +144,9 @@ struct MethodState {
     Vector positions = {};  ///< of all coordinates at that time: where motions at a constant rate began
 };
 
-/// All that is needed to continue from a point in time, if need be in another process. A one-step method continues bit
-/// for bit as if it had not stopped, provided that system, options, processor and library are the same; otherwise, and
-/// with multistep methods, it restarts there, and the results agree within the tolerances. Motions and forces that
+/// State that is needed to continue from a point in time, if need be in another process. A one-step method continues
+/// bit for bit as if it had not stopped, provided that system, options, processor and library are the same; otherwise,
+/// and with multistep methods, it restarts there, and the results agree within the tolerances. Motions and forces that
 /// events have replaced must be replaced again by the user; notes tell which.
 struct Checkpoint {
     double time = 0;

@@ -48,8 +48,8 @@ struct MachineLinearModel {
     const solvers::ConstantModel& constant_model(const std::string& name) const;
 };
 
-/// About the steady state, periodic where gravity or the wind make it so. In the wind its speed and the collective
-/// pitch are inputs, and what the air does to the rotor is among the outputs.
+/// Linear model about the steady state, periodic where gravity or the wind make it so. In the wind its speed and the
+/// collective pitch are inputs, and what the air does to the rotor is among the outputs.
 /// @throws InputError for settings out of range, with the field, names of inputs and outputs that there are not, and
 /// for what the machine does not have; NumericalError where no steady state is found
 MachineLinearModel linear_model(const Machine& source, const LinearModelSettings& settings = {});

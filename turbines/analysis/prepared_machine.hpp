@@ -48,7 +48,7 @@ solvers::RotorSpin rotor_spin(const Machine& machine);
 
 /// Text on a foundation that is left out, for titles: "tower clamped at its foot, substructure left out"; else empty.
 std::string foundation_in_words(const Machine& machine);
-/// Is the foundation that its source names left out?
+/// Whether the foundation that a machine's source names is left out.
 bool is_clamped(const Machine& machine);
 
 }  // namespace cardan::turbines

@@ -9,7 +9,7 @@
 
 namespace cardan::turbines {
 
-/// In rising order, each value once: 10, 8, 10 is 8, 10. That something has changed is reported.
+/// Values in rising order, each value once: 10, 8, 10 is 8, 10. That something has changed is reported.
 /// @param field  that has them, for errors
 /// @param what   they are, for the report: "wind speeds"
 /// @param unit   in which they are reported, and its name: units::rpm, "rpm"

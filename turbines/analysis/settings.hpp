@@ -87,7 +87,7 @@ public:
     /// Takes a wind as it is, whatever AirSettings say.
     WindSource(Wind wind) : what_(std::move(wind)) {}  // NOLINT(google-explicit-constructor)
 
-    /// No air.
+    /// Makes a source without air.
     static WindSource none() { return WindSource(std::monostate{}); }
 
     bool is_none() const { return std::holds_alternative<std::monostate>(what_); }
@@ -126,7 +126,7 @@ struct Controller {
     static Controller none() { return {.kind = Kind::none}; }
     /// Variable speed and pitch, with numbers for this machine: baseline_controller().
     static Controller baseline() { return {.kind = Kind::baseline}; }
-    /// In a shared library.
+    /// Makes a controller in a shared library.
     static Controller discon(std::filesystem::path library, std::filesystem::path input = {}) {
         return {.kind = Kind::library, .library = std::move(library), .input = std::move(input)};
     }
@@ -201,7 +201,7 @@ struct CampbellSettings {
     /// rad/s, >= 0, taken in rising order and each once; empty: from 0 to 1.2 times the machine's in 12 steps. None
     /// beside `winds`.
     std::vector<double> rotor_speeds = {};
-    /// At the hub's height, m/s, likewise; the machine runs as `operation` says.
+    /// Wind speeds at the hub's height, m/s, also in rising order, each once; the machine runs as `operation` says.
     std::vector<double> winds = {};
     /// Pitch over the rotor speed; empty: MachineSettings::pitch, else that of the machine's controller. None beside
     /// `winds`.

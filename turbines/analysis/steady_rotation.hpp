@@ -18,13 +18,13 @@ struct SteadyRotationOptions {
     std::function<bool()> cancelled = {};  ///< asked often; true: NumericalError
 };
 
-/// By harmonic balance. What the solver notes is reported.
+/// Steady rotation by harmonic balance. What the solver notes is reported.
 /// @param rotor_speed  rad/s, not zero
 /// @throws NumericalError if there is none
 solvers::PeriodicSteadyState steady_rotation(const Turbine& turbine, double rotor_speed,
                                              const SteadyRotationOptions& options = {}, const Report& report = {});
 
-/// At rest in equilibrium, the rotor held.
+/// State at rest in equilibrium, the rotor held.
 /// @param azimuth  of blade 1, rad
 /// @throws NumericalError if there is no equilibrium
 DynamicState standstill(const Turbine& turbine, double azimuth);

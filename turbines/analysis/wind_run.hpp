@@ -54,7 +54,7 @@ WindRun wind_run(const Machine& source, const WindRunOptions& options);
 /// warnings. Null: there are no more, or it was cancelled.
 const WindPoint* next_point(WindRun& run);
 
-/// All of them.
+/// Finds all operating points.
 void find_points(WindRun& run);
 
 /// One operation by twice as many elements, of which deflections and twist of bent blades ask for more than frequencies

@@ -14,7 +14,7 @@ namespace cardan::turbines {
 EquivalentCircuit nrel5mw_equivalent_circuit();
 Grid nrel5mw_grid();
 
-/// On the shaft of a machine; demands are to be given.
+/// The generator on the shaft of a machine; demands are to be given.
 /// @throws InputError for a machine without a generator
 DoublyFedGenerator nrel5mw_doubly_fed(const MachineLayout& layout);
 

@@ -14,7 +14,7 @@ struct BuiltInMachine {
     std::string name;
     std::string about;  ///< in a line
 };
-/// All there are.
+/// All built-in machines.
 std::vector<BuiltInMachine> built_in_machines();
 
 /// A built-in machine with air and operation, as far as its source has them. Its beams are tables, so that files hold

@@ -29,7 +29,7 @@ Aerodynamics read_air(const std::filesystem::path& path, const Machine& machine)
 /// @throws ParseError, FileError
 std::vector<Operation> read_schedule(const std::filesystem::path& path);
 
-/// Is it YAML, by the ending of its name?
+/// Whether a file is YAML, by the ending of its name.
 bool is_yaml(const std::filesystem::path& path);
 
 }  // namespace cardan::turbines

@@ -6,13 +6,13 @@
 
 namespace cardan::turbines {
 
-/// Is it such a file, by the ending of its name?
+/// Whether a file is a result, by the ending of its name.
 bool is_result(const std::filesystem::path& path);
-/// Is it a time history? Also one that is being written; what cannot be opened at all counts as one, whose reader says
-/// why.
+/// Whether a result is a time history. Also one that is being written; what cannot be opened at all counts as one,
+/// whose reader says why.
 bool is_history(const std::filesystem::path& result);
 
-/// All of its input description.
+/// Input description of a result, all of it.
 /// @throws FileError if the file cannot be read, or holds none
 std::string input_description(const std::filesystem::path& result);
 /// The machine that was computed, as our own YAML, at the end of an input description: parse_machine().

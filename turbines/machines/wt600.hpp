@@ -22,7 +22,7 @@ TurbineDescription wt600_description(const std::filesystem::path& folder);
 /// rest is 4.5 % low.
 AssemblyOptions wt600_paper_assembly(int elements = 3);
 
-/// By default with as many elements as it takes (AssemblyOptions::mesh).
+/// The machine assembled, by default with as many elements as it takes (AssemblyOptions::mesh).
 inline Turbine wt600(const AssemblyOptions& options = {}) {
     return assemble(wt600_description(), options);
 }

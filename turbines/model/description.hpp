@@ -83,8 +83,8 @@ struct TeeterDescription {
 };
 
 struct HubDescription {
-    /// About the rotor centre, where the shaft axis meets the rotor plane, or the teeter axis if there is one; z along
-    /// the shaft (downwind), x along blade 1. It teeters with the blades.
+    /// Inertia of the hub about the rotor centre, where the shaft axis meets the rotor plane, or the teeter axis if
+    /// there is one; z along the shaft (downwind), x along blade 1. It teeters with the blades.
     RigidInertia inertia;
     double radius = 0;  ///< blade roots along the blade axis, m
     std::optional<TeeterDescription> teeter;
@@ -180,7 +180,7 @@ struct TurbineDescription {
     int first_blade() const;
     /// Three or more, all there and alike: multi-blade coordinates make their equations constant, or nearly so.
     bool has_equal_blades() const { return blades > 2 && own_blades.empty(); }
-    /// Is this part of the machine there, with all that it needs by itself?
+    /// Whether this part of the machine is there, with all that it needs by itself.
     bool has(MissingEntry::Part part) const;
     /// @throws InputError that names what is missing, and how it is given
     void require_complete() const;

@@ -38,7 +38,7 @@ struct VariableSpeed {
     double fine_pitch = 0;   ///< rad
     std::vector<PitchAtWind> least_pitch = {};  ///< in the place of the fine pitch, where it depends on the wind
 
-    /// At the tip-speed ratio, within the limits; of a rotor with this radius, m.
+    /// Rotor speed at the tip-speed ratio, within the limits; of a rotor with this radius, m.
     double speed_at(double wind, double radius) const;
     double least_pitch_at(double wind) const { return least_pitch.empty() ? fine_pitch : pitch_at(least_pitch, wind); }
     /// @throws InputError for values that are not positive, or speeds that do not ascend

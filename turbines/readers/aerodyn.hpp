@@ -22,7 +22,7 @@ struct AeroDynFile {
     /// Tower and nacelle; nothing where the file switches them off. Heights of the tower are those above the ground or
     /// the still water: AeroTower::foot is for the caller to set (TurbineFile::tower_foot).
     AeroSupport support = {};
-    /// In the place of the polars of the blade, one for each, where air is to lag: AirLagOptions::profiles. Those of
+    /// Unsteady airfoils in the place of the polars of the blade, one for each: AirLagOptions::profiles. Those of
     /// cylinders and of sections out of UAStartRad ... UAEndRad lag in nothing.
     std::vector<UnsteadyProfile> profiles = {};
     bool unsteady = false;  ///< do the files ask for them (UA_Mod, AFAeroMod)?

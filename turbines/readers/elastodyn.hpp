@@ -48,8 +48,8 @@ struct ElastoDynContext {
         {};  ///< from BeamDyn, by number, where they have files of their own
 };
 
-/// Is it the main file of FAST 7? It has the entries of ElastoDyn and ServoDyn; a part of the tower may be rigid
-/// (TwrRBHt), the tower's foot is in the file of the platform.
+/// Whether a file is the main file of FAST 7, which has the entries of ElastoDyn and ServoDyn; a part of the tower may
+/// be rigid (TwrRBHt), the tower's foot is in the file of the platform.
 bool is_fast7(const OpenFastFile& file);
 
 /// The main file, or that of FAST 7, with the blade and tower files it names.

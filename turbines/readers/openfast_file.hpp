@@ -68,7 +68,7 @@ public:
     double number_or(std::string_view keyword, double otherwise);
     /// The first so many.
     std::vector<double> numbers(std::string_view keyword, std::size_t count);
-    /// Is there an entry of one value, this number? It does not count as used.
+    /// Whether there is an entry of one value, this number, which then does not count as used.
     bool is_number(std::string_view keyword, double value) const;
     int integer(std::string_view keyword, int least, int most);
     bool flag(std::string_view keyword);

@@ -41,7 +41,7 @@ inline Polar::Point point_of(const Polar& polar, double angle, double reynolds) 
     return polar.over_reynolds() ? polar.at(angle, reynolds) : polar.at(angle);
 }
 
-/// Is nothing of the section's load felt by the ring, as at root and tip by Prandtl's factors?
+/// Whether the ring feels nothing of the section's load, as at root and tip by Prandtl's factors.
 inline bool loses_all(const Annulus& annulus, const MomentumOptions& options) {
     return (options.tip_loss && annulus.tip <= 0) || (options.hub_loss && annulus.hub <= 0);
 }
@@ -49,10 +49,10 @@ inline bool loses_all(const Annulus& annulus, const MomentumOptions& options) {
 /// Prandtl's factor below which even attached flow may have several solutions.
 inline constexpr double large_loss = 0.2;
 
-/// Is a root of the balance between 0 and pi/2 the one that solve_induction() takes?
+/// Whether a root of the balance between 0 and pi/2 is the one that solve_induction() takes.
 bool is_least_attack(const SectionInflow& at, const MomentumOptions& options, double root);
 
-/// From 0 to 1 as t goes there, with level ends.
+/// A step that rises from 0 to 1 as t goes there, with level ends.
 template <class S>
 S blend(const S& t) {
     using std::cos;
@@ -104,7 +104,7 @@ public:
         const S turned = backwards_ ? S(pi - phi) : phi;
         return (from_behind_ ? S(-turned) : turned) - angle_;
     }
-    /// At which the profile has this angle of attack; from -pi to pi.
+    /// Inflow angle at which the airfoil has this angle of attack; from -pi to pi.
     double angle_at(double attack) const {
         const double there = attack + value_of(angle_), turned = from_behind_ ? -there : there;
         return std::remainder(backwards_ ? pi - turned : turned, 2 * pi);

@@ -138,7 +138,7 @@ struct ThirdOrder {
 struct FirstOrder {
     MachineConstants machine;
 
-    /// By Thevenin's equivalent of stator and magnetising branch; regular at synchronous speed.
+    /// Torque by Thevenin's equivalent of stator and magnetising branch; regular at synchronous speed.
     template <class S>
     S steady_torque(double time, const S& rate) const {
         const MachineConstants& c = machine;

@@ -43,7 +43,7 @@ struct NamedModes {
 NamedModes named_modes(const AssumedModesBlade& blade, double rpm);
 /// Frequencies with the velocity terms, that is, Coriolis forces.
 Frequencies gyroscopic_frequencies(const AssumedModesBlade& blade, double rpm);
-/// By converged functions with the velocity terms, of the blade stretched by its centrifugal force.
+/// Frequencies by converged functions with the velocity terms, of the blade stretched by its centrifugal force.
 Frequencies stretched_frequencies(double rpm);
 /// First torsion at rest by the paper's model, Hz: the blade as it is; its polar inertia without the mass factor;
 /// the tabulated inertia taken to be about the pitch axis instead of the mass centre.

@@ -33,7 +33,7 @@ struct PlatformCase {
     int harmonics = 8;
 };
 
-/// At 12.1 rpm with damping beta K_elastic, beta = turbines::nrel5mw_platform_damping.
+/// Response at 12.1 rpm with damping beta K_elastic, beta = turbines::nrel5mw_platform_damping.
 PlatformResponse platform_response(const AssumedModesBlade& blade, const PlatformCase& of);
 
 /// The blade with its first natural modes at 12.1 rpm for coordinates.

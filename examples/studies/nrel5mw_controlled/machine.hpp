@@ -42,7 +42,7 @@ turbines::ActuatorOptions pitch_actuators();
 /// The machine with the load, pitch and torque of the generator held.
 turbines::Turbine open_loop(const Plant& plant);
 
-/// Under the program, with the torque of a wind that changes.
+/// The machine under the program, with the torque of a wind that changes.
 turbines::ControlledMachine sampled_machine(const Plant& plant, const std::function<double(double time)>& wind,
                                             const DamperOptions& damper,
                                             const turbines::ActuatorOptions& actuators = pitch_actuators());

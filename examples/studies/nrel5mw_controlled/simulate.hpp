@@ -10,7 +10,7 @@
 
 namespace cardan::controlled {
 
-/// From the trim of a plant under winds that follow one another.
+/// A simulation from the trim of a plant under winds that follow one another.
 class Simulation {
 public:
     Simulation(const Plant& plant, const WindSteps& wind, const DamperOptions& damper, double tolerance);

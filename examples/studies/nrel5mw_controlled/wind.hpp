@@ -18,13 +18,13 @@ struct TrimPoint {
     double pitch;        ///< rad
     double sensitivity;  ///< dP/dpitch, W/rad
 };
-/// By the table, linear in between.
+/// Trim by the table, linear in between.
 /// @throws InputError for a wind that is not 3 ... 25 m/s
 TrimPoint trim_point(double wind);
 
 inline constexpr double rated_wind = 11.4, rated_power = 5.296610e6;  ///< m/s; mechanical, W
 inline constexpr double gear_ratio = 97;
-/// At rated power, rad/s: 1173.7 rpm of the generator behind its gearbox.
+/// Rotor speed at rated power, rad/s: 1173.7 rpm of the generator behind its gearbox.
 inline constexpr double rated_speed = 1173.7 * units::rpm / gear_ratio;
 
 /// T(wind, pitch) = T_0 + (dP/dpitch) / rated_speed (pitch - trim), positive: drives the rotor. From rated wind on T_0

@@ -9,7 +9,7 @@
 
 namespace cardan::floating {
 
-/// Each once.
+/// Frequencies, each once.
 std::vector<double> distinct_frequencies(const std::vector<double>& hz);
 
 /// Sums of sines in a stretch of time: of the motions first, then what they and the rotor's turns combine to.

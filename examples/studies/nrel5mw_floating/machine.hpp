@@ -39,9 +39,9 @@ struct MachineOptions {
     bool undamped = false;  ///< structure; the water keeps its damping
 };
 
-/// On the spar with its tower, under gravity.
+/// The machine on the spar with its tower, under gravity.
 turbines::Turbine on_spar(const MachineOptions& options, CoordinateRole role);
-/// On its own tower, under gravity.
+/// The machine on its own tower, under gravity.
 turbines::Turbine on_land(const MachineOptions& options);
 
 /// The constant state at standstill or, in rotation, the periodic one at azimuth 0.

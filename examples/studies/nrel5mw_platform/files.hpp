@@ -36,8 +36,8 @@ struct Drawn {
     double exchanged_energy = 0;        ///< see program::exchanged_energy()
     std::string files;                  ///< endings, for people
 };
-/// From PREFIX.h5: PREFIX.svg and .png with motions, deflections and root moments in the last three periods,
-/// PREFIX_energy.png of the whole run, PREFIX_spectrum.png of up to ten periods until `periodic_to`.
+/// Draws from PREFIX.h5 the pictures PREFIX.svg and .png with motions, deflections and root moments in the last three
+/// periods, PREFIX_energy.png of the whole run, PREFIX_spectrum.png of up to ten periods until `periodic_to`.
 Drawn draw_pictures(const turbines::Turbine& machine, const std::string& prefix, const PictureOptions& options);
 
 }  // namespace cardan::platform

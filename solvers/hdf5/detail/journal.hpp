@@ -13,9 +13,9 @@
 
 namespace cardan::solvers::detail {
 
-/// Between commits the bytes on disk are those of the last commit, so that any program can read them. Writes below the
-/// end of the committed contents are held back in memory, in blocks; writes beyond it go to disk immediately, where
-/// nobody looks. commit() then
+/// A file that reaches the disk by commits: between them the bytes on disk are those of the last commit, so that any
+/// program can read them. Writes below the end of the committed contents are held back in memory, in blocks; writes
+/// beyond it go to disk immediately, where nobody looks. commit() then
 ///   1. writes the held-back blocks and a footer with a checksum, the journal, behind all that,
 ///   2. overwrites the first bytes, in which a format has its signature, by a mark,
 ///   3. writes the blocks to their places, those first bytes last,
@@ -66,7 +66,8 @@ public:
 
     /// Reads what was written, committed or not; zeros beyond the end.
     int read(std::uint64_t address, std::span<char> to) const;
-    /// After a disk error, which is remembered (error()), everything goes to memory and nothing is committed any more.
+    /// Writes bytes; after a disk error, which is remembered (error()), everything goes to memory and nothing is
+    /// committed any more.
     void write(std::uint64_t address, std::span<const char> from);
     /// @param end  length of the contents from now on
     /// @return also ENOENT if the file has been removed, EIO if it has been truncated

@@ -9,7 +9,8 @@
 
 namespace cardan::solvers::detail {
 
-/// While it exists, the C library prints no errors on this thread; the host program's setting is restored afterwards.
+/// Silences the C library: while this exists, it prints no errors on this thread; the host program's setting is
+/// restored afterwards.
 class Quiet {
 public:
     Quiet() {

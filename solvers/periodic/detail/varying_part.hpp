@@ -18,7 +18,7 @@ namespace cardan::solvers {
 /// rotating one, and what the two have in common are resultant forces and moments of the blades and motions of the hub.
 class VaryingPart {
 public:
-    /// At which the matrices are taken.
+    /// Number of azimuths at which the matrices are taken.
     static constexpr int azimuths = 24;
 
     /// @param system     of period 2 pi

@@ -35,7 +35,7 @@ public:
     static int memory(const EquationsOfMotion& equations);
     /// @param out  memory() numbers; the first is zero if there is no Jacobian
     void remember(double* out) const;
-    /// Is, or becomes, the matrix that was remembered, to the last digit. It has none if that cannot be evaluated.
+    /// Takes the matrix that was remembered, to the last digit. It has none if that cannot be evaluated.
     void recall(const double* memory);
     bool has_jacobian() const { return has_jacobian_; }
 

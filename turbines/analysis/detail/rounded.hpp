@@ -8,7 +8,7 @@
 
 namespace cardan::turbines {
 
-/// In six digits.
+/// Text of a value in six digits.
 inline std::string rounded(double value) {
     std::ostringstream out = text_stream();
     out << value;

@@ -10,7 +10,7 @@ namespace cardan::turbines {
 class RigidTower {
 public:
     explicit RigidTower(const Turbine& turbine);
-    /// On the tower at its top, or on what carries it at its foot; base axes, about the frame's origin.
+    /// Load on the tower at its top, or on what carries it at its foot; base axes, about the frame's origin.
     Wrench top_load(const Turbine& source, const DynamicView& in) const;
     Wrench foot_load(const Turbine& source, const DynamicView& in) const;
 

@@ -7,14 +7,14 @@
 
 namespace cardan::turbines {
 
-/// Are there matrices of the blade's sections?
+/// Whether there are matrices of the blade's sections.
 bool windio_has_sections(const WindioFile& file);
 /// Along z, from root to tip, m.
 double windio_blade_length(const WindioFile& file);
-/// From the matrices of its elastic properties.
+/// The blade from the matrices of its elastic properties.
 BeamTable windio_blade(WindioFile& file);
 BeamDamping windio_blade_damping(WindioFile& file);
-/// From the matrices of its elastic properties; without them, a tube made of its layers.
+/// The tower from the matrices of its elastic properties; without them, a tube made of its layers.
 BeamTable windio_tower(WindioFile& file);
 BeamDamping windio_tower_damping(WindioFile& file);
 
