@@ -26,11 +26,11 @@ turbines::WindOperation level_operation() {
             options};
 }
 
-void diagram_point(benchmark::State& state, turbines::Wake wake, bool unsteady_profiles) {
+void diagram_point(benchmark::State& state, turbines::Wake wake, bool unsteady_airfoils) {
     turbines::WindOperation operation = level_operation();
     const std::array points{operation.at({15, 12.1 * units::rpm, 10.45 * units::degree})};
     turbines::AeroelasticOptions air{.wake = wake};
-    if (unsteady_profiles) air.profiles = turbines::nrel5mw_unsteady_profiles();
+    if (unsteady_airfoils) air.airfoils = turbines::nrel5mw_unsteady_airfoils();
     solvers::CampbellOptions options;
     options.spin = solvers::RotorSpin::prescribed;
     options.method = solvers::CampbellMethod::averaged;
@@ -58,7 +58,7 @@ void in_pairs(benchmark::internal::Benchmark* one) {
 BENCHMARK_CAPTURE(diagram_point, frozen, turbines::Wake::frozen, false)->Apply(in_pairs);
 BENCHMARK_CAPTURE(diagram_point, quasi_steady, turbines::Wake::quasi_steady, false)->Apply(in_pairs);
 BENCHMARK_CAPTURE(diagram_point, dynamic, turbines::Wake::dynamic, false)->Apply(in_pairs);
-BENCHMARK_CAPTURE(diagram_point, dynamic_with_profiles, turbines::Wake::dynamic, true)->Apply(in_pairs);
+BENCHMARK_CAPTURE(diagram_point, dynamic_with_airfoils, turbines::Wake::dynamic, true)->Apply(in_pairs);
 
 }  // namespace
 

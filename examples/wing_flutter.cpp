@@ -31,17 +31,17 @@ int main() try {
     assembly.blade_beam = {.elements = elements, .held_z = true};
     const turbines::Turbine wing = turbines::isolated_blade(machine, assembly);
     const Polar plate("plate", {-pi, -0.7, 0.7, pi}, {0, -1.4 * pi, 1.4 * pi, 0}, {0, 0, 0, 0}, {0, 0, 0, 0});
-    const UnsteadyProfile profile(plate, {.slope = 2 * pi, .upper = 0.7, .lower = -0.7},
+    const UnsteadyAirfoil airfoil(plate, {.slope = 2 * pi, .upper = 0.7, .lower = -0.7},
                                   {.A1 = 0.165, .A2 = 0.335, .b1 = 0.0455, .b2 = 0.3});
     AeroBlade strips;
     strips.chord.assign(sections, chord);
     strips.sweep.assign(sections, 0.25 * chord - axis);
     for (auto* list : {&strips.twist, &strips.prebend}) list->assign(sections, 0);
-    strips.profile.assign(sections, 0);
+    strips.airfoil.assign(sections, 0);
     strips.polars = {plate};
     for (std::size_t i = 0; i < sections; ++i) strips.position.push_back(1 + span * static_cast<double>(i) / elements);
     const turbines::MachineAir still(wing, strips, SteadyWind{}, {.skew = Skew::none, .induction = false});
-    const turbines::MachineAir air = still.lagging({.profiles = {profile}});
+    const turbines::MachineAir air = still.lagging({.airfoils = {airfoil}});
     std::optional<turbines::Turbine> windy;
     const auto at_wind = [&](double speed) {
         windy = air.in(SteadyWind{.speed = speed, .density = density}).on(wing);

@@ -167,8 +167,8 @@ AttachedFlow attached_flow(const Polar& polar, const KnownFlow& known) {
     return out;
 }
 
-std::vector<UnsteadyProfile> unsteady_profiles(const std::vector<Polar>& polars) {
-    std::vector<UnsteadyProfile> all;
+std::vector<UnsteadyAirfoil> unsteady_airfoils(const std::vector<Polar>& polars) {
+    std::vector<UnsteadyAirfoil> all;
     all.reserve(polars.size());
     for (const Polar& polar : polars) all.emplace_back(polar, attached_flow(polar));
     return all;

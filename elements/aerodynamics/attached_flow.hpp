@@ -1,8 +1,8 @@
 /// @file
-/// Attached flow of a profile from its polar, where nothing else is known of it.
+/// Attached flow of an airfoil from its polar, where nothing else is known of it.
 #pragma once
 
-#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "elements/aerodynamics/unsteady_airfoil.hpp"
 
 #include <optional>
 #include <vector>
@@ -24,20 +24,20 @@ struct KnownFlow {
 ///    smoothed over 2 degrees to both sides with the weight (1 - u^2)^3; the range begins at the least drag and ends
 ///    on both sides where the slope falls below nine tenths of its largest value on the way.
 ///  - slope: that of the line of least squares through the lift in the middle three fifths of the range.
-///  - zero_lift: the zero of the table's lift next to that of the line, so that the profile at rest has the lift of its
+///  - zero_lift: the zero of the table's lift next to that of the line, so that the airfoil at rest has the lift of its
 ///    table. (AeroDyn takes the zero of the line through c_n; where that is another one, the point of separation
 ///    jumps next to it.)
 ///
 /// There is no slope, hence no lag, if the lift stays below 0.01 or the drag does not change (cylinders), if the table
 /// has fewer than three points there, or if the line does not rise.
 ///
-/// Limits: the lift has to be a line somewhere. Near the root, between a cylinder and a profile, it may be one between
+/// Limits: the lift has to be a line somewhere. Near the root, between a cylinder and an airfoil, it may be one between
 /// two points of the table only; such slopes mean little. Five percent of the slope move the point of separation by
-/// 0.08 where it is 0.7. Where the lift lies above the line, the profile at rest has the line's.
-/// @throws nothing; what is known and does not fit is found by UnsteadyProfile
+/// 0.08 where it is 0.7. Where the lift lies above the line, the airfoil at rest has the line's.
+/// @throws nothing; what is known and does not fit is found by UnsteadyAirfoil
 AttachedFlow attached_flow(const Polar& polar, const KnownFlow& known = {});
 
-/// Unsteady airfoils of every polar with its attached_flow() and the lags of a thin profile: AirLagOptions::profiles.
-std::vector<UnsteadyProfile> unsteady_profiles(const std::vector<Polar>& polars);
+/// Unsteady airfoils of every polar with its attached_flow() and the lags of a thin airfoil: AirLagOptions::airfoils.
+std::vector<UnsteadyAirfoil> unsteady_airfoils(const std::vector<Polar>& polars);
 
 }  // namespace cardan

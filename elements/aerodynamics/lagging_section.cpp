@@ -10,14 +10,14 @@ namespace {
 
 using LagSlope = Dual<LaggingSlopes::columns>;
 
-// Those that a profile does not have are zero.
-UnsteadyProfile::States profile_states(const SectionStates& s, const SectionLags& lags) {
-    UnsteadyProfile::States x = UnsteadyProfile::States::Zero();
-    x.tail(lags.profile_states()) = s.segment(lags.inflow_states(), lags.profile_states());
+// Those that an airfoil does not have are zero.
+UnsteadyAirfoil::States airfoil_states(const SectionStates& s, const SectionLags& lags) {
+    UnsteadyAirfoil::States x = UnsteadyAirfoil::States::Zero();
+    x.tail(lags.airfoil_states()) = s.segment(lags.inflow_states(), lags.airfoil_states());
     return x;
 }
 
-ProfileMotion motion_of(const Annulus& annulus, const Reaching<double>& u, double rate) {
+AirfoilMotion motion_of(const Annulus& annulus, const Reaching<double>& u, double rate) {
     return {std::atan2(u.u_x, u.u_y) - annulus.angle, std::hypot(u.u_x, u.u_y), rate, annulus.chord};
 }
 Reaching<double> reaching(const SectionMotion& motion, const Induction& induction) {
@@ -35,12 +35,12 @@ RotorWake unskewed(const RotorWake& wake) {
     return {.share = wake.share};
 }
 
-// @param first, count  of the profile's states
-LagSlope profile_value(double value, const Eigen::Matrix<double, 1, UnsteadyProfile::Slopes::columns>& slopes,
+// @param first, count  of the airfoil's states
+LagSlope airfoil_value(double value, const Eigen::Matrix<double, 1, UnsteadyAirfoil::Slopes::columns>& slopes,
                        const LagSlope& attack, const LagSlope& speed, const LagSlope& rate, int first, int count) {
     LagSlope out(value);
-    for (int i = 0; i < count; ++i) out.slopes(first + i) += slopes(UnsteadyProfile::states - count + i);
-    using Column = UnsteadyProfile::Slopes;
+    for (int i = 0; i < count; ++i) out.slopes(first + i) += slopes(UnsteadyAirfoil::states - count + i);
+    using Column = UnsteadyAirfoil::Slopes;
     out.slopes += slopes(Column::attack) * attack.slopes + slopes(Column::speed) * speed.slopes +
                   slopes(Column::rate) * rate.slopes;
     return out;
@@ -65,7 +65,7 @@ public:
           rate_(LagSlope::variable(motion.rate, LaggingSlopes::rate)) {}
 
     LaggingSlopes run() {
-        follow_profile_or_table(lags_.wake == WakeLag::frozen ? frozen_velocity()
+        follow_airfoil_or_table(lags_.wake == WakeLag::frozen ? frozen_velocity()
                                                               : reaching<LagSlope>(inflow_, factors()));
         return out_;
     }
@@ -111,9 +111,9 @@ private:
         return {limited<LagSlope>(held.axial, -1, 1.5), limited<LagSlope>(held.tangential, -1, 1)};
     }
 
-    void follow_profile_or_table(const Reaching<LagSlope>& u) {
-        if (lags_.has_profile())
-            follow_profile(u);
+    void follow_airfoil_or_table(const Reaching<LagSlope>& u) {
+        if (lags_.has_airfoil())
+            follow_airfoil(u);
         else
             follow_table(u);
     }
@@ -125,21 +125,21 @@ private:
         set(2, loads.moment);
     }
 
-    void follow_profile(const Reaching<LagSlope>& u) {
+    void follow_airfoil(const Reaching<LagSlope>& u) {
         // Without speed nothing depends on it to first order but the angle of attack, which has no meaning then.
         const bool flows = value_of(u.u_x) != 0 || value_of(u.u_y) != 0;
         const LagSlope speed = flows ? sqrt(u.u_x * u.u_x + u.u_y * u.u_y) : LagSlope(0),
                        attack = (flows ? atan2(u.u_x, u.u_y) : LagSlope(0)) - inflow_.angle;
-        const ProfileMotion motion{attack.value, speed.value, motion_.rate, annulus_.chord};
-        const UnsteadyProfile::States x = profile_states(s_, lags_);
-        const UnsteadyProfile::Slopes slopes = lags_.profile->slopes(x, motion);
-        const UnsteadyProfile::Coefficients c = lags_.profile->coefficients(x, motion);
-        const int first = LaggingSlopes::first_state + lags_.inflow_states(), count = lags_.profile_states();
+        const AirfoilMotion motion{attack.value, speed.value, motion_.rate, annulus_.chord};
+        const UnsteadyAirfoil::States x = airfoil_states(s_, lags_);
+        const UnsteadyAirfoil::Slopes slopes = lags_.airfoil->slopes(x, motion);
+        const UnsteadyAirfoil::Coefficients c = lags_.airfoil->coefficients(x, motion);
+        const int first = LaggingSlopes::first_state + lags_.inflow_states(), count = lags_.airfoil_states();
         const auto value = [&](double of, const auto& row) {
-            return profile_value(of, row, attack, speed, rate_, first, count);
+            return airfoil_value(of, row, attack, speed, rate_, first, count);
         };
         for (int i = 0; i < count; ++i)
-            set(3 + lags_.inflow_states() + i, value(0, slopes.rates.row(UnsteadyProfile::states - count + i)));
+            set(3 + lags_.inflow_states() + i, value(0, slopes.rates.row(UnsteadyAirfoil::states - count + i)));
         const LagSlope lift = value(c.lift, slopes.coefficients.row(0)),
                        drag = value(c.drag, slopes.coefficients.row(1)),
                        moment = value(c.moment, slopes.coefficients.row(2)),
@@ -195,12 +195,12 @@ LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const S
     now.solved = out.solved;
     const Reaching<double> u =
         frozen ? Reaching<double>{V_x + lags.velocity.x(), V_y + lags.velocity.y()} : reaching(motion, now);
-    if (lags.has_profile()) {
-        const ProfileMotion moving = motion_of(annulus, u, motion.rate);
-        const UnsteadyProfile::States x = profile_states(s, lags);
-        out.rates.segment(lags.inflow_states(), lags.profile_states()) =
-            lags.profile->rates(x, moving).tail(lags.profile_states());
-        const UnsteadyProfile::Coefficients c = lags.profile->coefficients(x, moving);
+    if (lags.has_airfoil()) {
+        const AirfoilMotion moving = motion_of(annulus, u, motion.rate);
+        const UnsteadyAirfoil::States x = airfoil_states(s, lags);
+        out.rates.segment(lags.inflow_states(), lags.airfoil_states()) =
+            lags.airfoil->rates(x, moving).tail(lags.airfoil_states());
+        const UnsteadyAirfoil::Coefficients c = lags.airfoil->coefficients(x, moving);
         out.air.force = force_of(annulus, u.u_x, u.u_y, moving.attack, {c.lift, c.drag, c.moment}, density);
     } else {
         out.air.force = table_force(annulus, u, now.phi - annulus.angle, density);
@@ -212,16 +212,16 @@ SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion,
                             const SectionLags& lags) {
     SectionLags still = lags;
     if (lags.wake == WakeLag::dynamic) still.wake = WakeLag::none;
-    still.profile = nullptr;
+    still.airfoil = nullptr;
     const LaggingAir at = lagging_air(annulus, motion, SectionStates::Zero(), options, 1, still);
     SectionStates out = SectionStates::Zero();
     if (lags.wake == WakeLag::dynamic) out.head<DynamicInflow::states>() = DynamicInflow::steady(at.velocity);
     const Reaching<double> reached =
         lags.wake == WakeLag::frozen ? Reaching<double>{motion.V_x + lags.velocity.x(), motion.V_y + lags.velocity.y()}
                                      : reaching(motion, at.air.induction);
-    if (lags.has_profile())
-        out.segment(lags.inflow_states(), lags.profile_states()) =
-            lags.profile->steady(motion_of(annulus, reached, motion.rate)).tail(lags.profile_states());
+    if (lags.has_airfoil())
+        out.segment(lags.inflow_states(), lags.airfoil_states()) =
+            lags.airfoil->steady(motion_of(annulus, reached, motion.rate)).tail(lags.airfoil_states());
     return out;
 }
 

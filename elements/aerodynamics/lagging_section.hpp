@@ -1,10 +1,10 @@
 /// @file
-/// Air on one section of a blade that lags behind its motion: induction, profile, or both, with derivatives.
+/// Air on one section of a blade that lags behind its motion: induction, airfoil, or both, with derivatives.
 #pragma once
 
 #include "elements/aerodynamics/blade_section.hpp"
 #include "elements/aerodynamics/dynamic_inflow.hpp"
-#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "elements/aerodynamics/unsteady_airfoil.hpp"
 
 #include <Eigen/Core>
 
@@ -19,18 +19,18 @@ enum class WakeLag : std::uint8_t {
     frozen    ///< the induced velocities stay, whatever the wake's skew
 };
 
-/// Unsteady parts of a section. Its states are those of the inflow, then those of the profile.
+/// Unsteady parts of a section. Its states are those of the inflow, then those of the airfoil.
 struct SectionLags {
-    const UnsteadyProfile* profile = nullptr;  ///< none: that of the annulus, steady
+    const UnsteadyAirfoil* airfoil = nullptr;  ///< none: that of the annulus, steady
     WakeLag wake = WakeLag::none;
     InflowTimes times = {0, 0};                          ///< of a dynamic wake, s
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< induced, of a frozen one, m/s
 
-    static constexpr int most = int{DynamicInflow::states} + int{UnsteadyProfile::states};
-    bool has_profile() const { return profile != nullptr && profile->is_unsteady(); }
+    static constexpr int most = int{DynamicInflow::states} + int{UnsteadyAirfoil::states};
+    bool has_airfoil() const { return airfoil != nullptr && airfoil->is_unsteady(); }
     int inflow_states() const { return wake == WakeLag::dynamic ? DynamicInflow::states : 0; }
-    int profile_states() const { return has_profile() ? profile->own_states() : 0; }
-    int states() const { return inflow_states() + profile_states(); }
+    int airfoil_states() const { return has_airfoil() ? airfoil->own_states() : 0; }
+    int states() const { return inflow_states() + airfoil_states(); }
 };
 /// States of a section; only the first SectionLags::states() count.
 using SectionStates = Eigen::Matrix<double, SectionLags::most, 1>;

@@ -123,7 +123,7 @@ private:
         return balance_.holds(found) ? std::optional(found) : std::nullopt;
     }
 
-    // From no attack to both edges, or from the edges to where the profile is reversed.
+    // From no attack to both edges, or from the edges to where the airfoil is reversed.
     std::array<Front, 2> fronts(const Interval& in) const {
         const double none = balance_.angle_at(0), reversed = balance_.angle_at(pi);
         if (is_within(in, none)) return {front(none, in.from), front(none, in.to)};

@@ -97,7 +97,7 @@ Polar::Point Polar::IndexedTable::at(double x) const {
 }
 
 Polar::Polar(std::string name, std::vector<Table> tables) : name_(std::move(name)) {
-    const std::string here = text("polar of profile '", name_, "'");
+    const std::string here = text("polar of airfoil '", name_, "'");
     if (tables.empty()) throw InputError(here, "number of tables", 0, "at least 1");
     const bool several = tables.size() > 1;
     tables_.reserve(tables.size());

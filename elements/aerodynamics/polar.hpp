@@ -1,5 +1,5 @@
 /// @file
-/// Coefficients of a profile over the full circle of the angle of attack, and over the Reynolds number.
+/// Coefficients of an airfoil over the full circle of the angle of attack, and over the Reynolds number.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ public:
         double room = 0;  ///< rad: so far to either side all are linear in the angle
     };
 
-    /// @throws InputError naming profile, table and angle unless there is a table, all have at least two points,
+    /// @throws InputError naming airfoil, table and angle unless there is a table, all have at least two points,
     /// finite, ascending, and reach around the circle, and the Reynolds numbers of several tables are positive and
     /// ascend
     Polar(std::string name, std::vector<Table> tables);
@@ -50,7 +50,7 @@ public:
     };
     const LiftLine& lift_line() const { return lift_line_; }
     /// Whether the lift rises at half of its steepest slope, or more, all the way from no angle of attack to this one?
-    /// Of a profile without lift everywhere. Of the first table, between -pi and pi.
+    /// Of an airfoil without lift everywhere. Of the first table, between -pi and pi.
     bool is_attached(double angle) const { return angle >= attached_from_ && angle <= attached_to_; }
     /// Points of the first table beyond, up to a right angle, at which the lift loses slope away from zero, rad.
     const std::vector<double>& stalls() const { return stalls_; }

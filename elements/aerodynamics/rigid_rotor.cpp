@@ -130,7 +130,7 @@ Annulus AeroBlade::annulus(std::size_t section, double blades) const {
             .angle = twist[section],
             .tip = blades / 2 * (tip - z) / z,
             .hub = blades / 2 * (z - root) / root,
-            .polar = &polars[profile[section]],
+            .polar = &polars[airfoil[section]],
             .viscosity = viscosity};
 }
 
@@ -139,9 +139,9 @@ void AeroBlade::check() const {
     constexpr double farthest = 1e4;  // m
     const std::size_t n = sections();
     if (n < 2) throw InputError(here, "number of sections", n, "at least 2");
-    if (chord.size() != n || twist.size() != n || profile.size() != n)
+    if (chord.size() != n || twist.size() != n || airfoil.size() != n)
         throw InputError(here, "lengths of the columns",
-                         text(n, ", ", chord.size(), ", ", twist.size(), ", ", profile.size()), "equal");
+                         text(n, ", ", chord.size(), ", ", twist.size(), ", ", airfoil.size()), "equal");
     require_positive(here, "kinematic viscosity of the air [m^2/s]", viscosity);
     for (const auto* offsets : {&prebend, &sweep})
         if (!offsets->empty() && offsets->size() != n)
@@ -160,8 +160,8 @@ void AeroBlade::check() const {
         if (i > 0 && !(position[i] > position[i - 1]))
             throw InputError(section, "place from the hub's centre [m]", position[i],
                              text("> ", position[i - 1], ", that of the section before"));
-        if (profile[i] >= polars.size())
-            throw InputError(section, "profile", profile[i], text("0 ... ", static_cast<long>(polars.size()) - 1));
+        if (airfoil[i] >= polars.size())
+            throw InputError(section, "airfoil", airfoil[i], text("0 ... ", static_cast<long>(polars.size()) - 1));
     }
 }
 

@@ -14,7 +14,7 @@ struct AeroBlade {
     std::vector<double> position;      ///< from the hub's centre along the blade, m, ascending
     std::vector<double> chord;         ///< m
     std::vector<double> twist;         ///< rad, positive towards feather, as the pitch
-    std::vector<std::size_t> profile;  ///< index into polars
+    std::vector<std::size_t> airfoil;  ///< index into polars
     std::vector<Polar> polars;
     /// Offsets of the aerodynamic centres from the pitch axis, m: downwind, and toward the trailing edge, before the
     /// pitch. Empty: they lie on the reference line of the blade that carries them. A rotor that does not bend has them
@@ -26,7 +26,7 @@ struct AeroBlade {
     /// The ring of a section, radius and angle those of a straight blade without cone and pitch.
     Annulus annulus(std::size_t section, double blades) const;
     /// @throws InputError for columns of different length, positions that do not ascend, chords that are not positive,
-    /// profiles that do not exist, a viscosity that is not positive
+    /// airfoils that do not exist, a viscosity that is not positive
     void check() const;
 };
 

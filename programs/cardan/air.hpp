@@ -1,5 +1,5 @@
 /// @file
-/// Air on a machine, as programs are told of it: profiles, options, wind.
+/// Air on a machine, as programs are told of it: airfoils, options, wind.
 #pragma once
 
 #include "programs/shared/command_line.hpp"
@@ -23,7 +23,7 @@ struct AirArguments {
 };
 /// Adds the options of the file of airfoils and of the density alone.
 /// @return the options
-std::vector<Option> add_profile_options(CommandLine& app, AirArguments& arguments);
+std::vector<Option> add_airfoil_options(CommandLine& app, AirArguments& arguments);
 std::vector<Option> add_air_options(CommandLine& app, AirArguments& arguments);
 /// Adds the option of commands whose wake is in equilibrium, or none.
 Option add_wake_option(CommandLine& app, AirArguments& arguments);

@@ -1,7 +1,7 @@
 // Flutter and divergence of a blade that turns too fast.
 //
 // Problem: one blade of the machine, clamped at its pitch setting to a hub that turns in still air, without gravity.
-// Its sections see the air of their own motion; profiles lag behind it (four states a section, shed vorticity among
+// Its sections see the air of their own motion; airfoils lag behind it (four states a section, shed vorticity among
 // them), and no velocity is induced by the wake as a whole: the classical model of a blade's flutter. Modes are
 // followed over the rotor speed about the steady state of each, and the speeds at which one begins or ceases to grow
 // are found as roots. How much more than its own speed the machine may have is the margin.
@@ -44,7 +44,7 @@ struct FlutterArguments {
     MachineOptions machine;
     AirArguments air;
     std::string rpm, out;
-    bool steady_profiles = false, air_roots = false;
+    bool steady_airfoils = false, air_roots = false;
     int steps = solvers::StabilityOptions{}.steps;
     std::optional<double> max_frequency;
 };
@@ -55,8 +55,8 @@ void declare(CommandLine& app, FlutterArguments& a) {
     app.add_option("--steps", a.steps, "of the search; they are halved where it is doubtful which mode is which")
         .range(1, 10000);
     add_machine_options(app, a.machine);
-    add_profile_options(app, a.air);
-    app.add_flag("--steady-profiles", a.steady_profiles,
+    add_airfoil_options(app, a.air);
+    app.add_flag("--steady-airfoils", a.steady_airfoils,
                  "lift, drag and moment follow the angle of attack at once: flutter then comes early");
     app.add_option("--max-frequency", a.max_frequency,
                    "follow modes up to this frequency, Hz (default: 1.5 times the first torsion at rest)")
@@ -115,8 +115,8 @@ double torsion_hz(const turbines::Machine& machine, MachineOptions options) {
                      "ones that twist: without torsion there is no flutter");
 }
 
-bool profiles_lag(const turbines::Aerodynamics& air, const FlutterArguments& a) {
-    return !a.steady_profiles && !air.unsteady_airfoils.empty();
+bool airfoils_lag(const turbines::Aerodynamics& air, const FlutterArguments& a) {
+    return !a.steady_airfoils && !air.unsteady_airfoils.empty();
 }
 
 solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const turbines::Aerodynamics& air,
@@ -125,7 +125,7 @@ solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const turbine
     own_motion.induction = false;
     own_motion.skew = Skew::none;
     turbines::MachineAir still(blade, air.blade, SteadyWind{.density = air.density}, own_motion);
-    if (profiles_lag(air, a)) still = still.lagging({.profiles = air.unsteady_airfoils});
+    if (airfoils_lag(air, a)) still = still.lagging({.airfoils = air.unsteady_airfoils});
     const turbines::Turbine in_air = still.on(blade);
 
     solvers::StabilityOptions options;
@@ -239,7 +239,7 @@ int run(FlutterArguments& a, const CommandLine& command) {
     if (!a.max_frequency) a.max_frequency = modes_up_to * torsion_hz(machine, a.machine);
     const turbines::PreparedTurbine ready = ready_machine(machine, a.machine, *a.max_frequency, range.last);
     const turbines::Turbine blade = blade_of(machine, a.machine);
-    const std::string answer = turbines::air_in_words("none", profiles_lag(air, a));
+    const std::string answer = turbines::air_in_words("none", airfoils_lag(air, a));
     std::cout << "air of the blade: " << answer << "\n";
     solvers::StabilityLimits found = limits_of(blade, air, a, range, a.steps);
     solvers::Campbell& diagram = found.diagram;

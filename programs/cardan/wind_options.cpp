@@ -82,8 +82,8 @@ Option add_vibration_options(CommandLine& app, VibrationArguments& a) {
                        "how the induced velocities follow a vibration: frozen (not at all), quasi-steady (at once) or "
                        "dynamic; none: there are none")
             .one_of({"frozen", "quasi-steady", "dynamic", "none"}),
-        app.add_flag("--steady-profiles", a.steady_profiles,
-                     "lift, drag and moment follow the angle of attack at once, also where the profiles' data have "
+        app.add_flag("--steady-airfoils", a.steady_airfoils,
+                     "lift, drag and moment follow the angle of attack at once, also where the airfoils' data have "
                      "lags"),
         app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced, with --wind")
             .range(1, 200)};
@@ -92,7 +92,7 @@ Option add_vibration_options(CommandLine& app, VibrationArguments& a) {
 }
 
 turbines::VibrationSettings vibration_of(const VibrationArguments& a) {
-    turbines::VibrationSettings settings{.unsteady_airfoils = !a.steady_profiles};
+    turbines::VibrationSettings settings{.unsteady_airfoils = !a.steady_airfoils};
     if (a.wind.air.wake != "none") settings.wake = turbines::wake_named(a.wind.air.wake, "--wake");
     return settings;
 }

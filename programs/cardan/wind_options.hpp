@@ -31,7 +31,7 @@ turbines::OperationSettings operation_of(const WindArguments& wind);
 /// Arguments of what the air does to a vibration.
 struct VibrationArguments {
     WindArguments wind;  ///< of its wake, air.wake, frozen and dynamic too
-    bool steady_profiles = false, floquet = false;
+    bool steady_airfoils = false, floquet = false;
     int harmonics = turbines::CampbellSettings().harmonics;
 
     VibrationArguments() { wind.air.wake = "dynamic"; }

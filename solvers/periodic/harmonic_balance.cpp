@@ -24,7 +24,7 @@ constexpr double good_reduction = 0.1, of_use = 0.5;
 // Residual over stiffness of the harmonics that are left out, and of states over their scales; and what is enough to
 // tell it.
 constexpr double small_remainder = 1e-5, enough_for_remainder = 0.1 * small_remainder;
-// States that follow curves with kinks, as those of profiles do: further harmonics leave hardly less than before, and
+// States that follow curves with kinks, as those of airfoils do: further harmonics leave hardly less than before, and
 // no more than this is left as it is.
 constexpr double remainder_of_kinks = 2e-3, worth_more_harmonics = 0.5;
 

@@ -19,16 +19,16 @@ add_example_test(example_steady_wind cardan 0 "5296[.]61 kW on the rotor.*at 9 m
     steady nrel5mw --wind 8,9 --no-gravity --harmonics 2 ${coarse} --blade-stations 40 --out example_steady_wind)
 add_example_test(example_steady_wind_windio cardan 0 "operation: tip-speed ratio.*8[.]000 .*files: example_steady_wind_windio[.]h5" steady
     ${models}/windio/small_v1.yaml --wind 8 --rated-power 90 --no-gravity --harmonics 2 ${coarse} --out example_steady_wind_windio)
-add_example_test(example_steady_wind_air cardan 0 "air of the operating points: wake quasi-steady, profiles steady.*8[.]000 .*files: example_steady_wind_air[.]h5" steady ${models}/windio/small_v2.yaml
+add_example_test(example_steady_wind_air cardan 0 "air of the operating points: wake quasi-steady, airfoils steady.*8[.]000 .*files: example_steady_wind_air[.]h5" steady ${models}/windio/small_v2.yaml
     --air ${models}/windio/small_v1.yaml --rated-rpm 60 --wind 8 --rated-power 90 --no-gravity --harmonics 2 ${coarse}
     --out example_steady_wind_air)
 add_example_test(example_steady_wind_profiles cardan 1 "--air: value = none, and the machine has no airfoils" steady wt600 --wind 8)
 add_example_test(example_steady_wind_bad cardan 1 "--wind: value = 9:8:1; allowed: numbers and FIRST:LAST:STEP" steady nrel5mw --wind 9:8:1)
 add_example_test(example_steady_wind_rpm cardan 1 "--rpm: value = 3; allowed: none beside --wind" steady nrel5mw --wind 8 --rpm 3)
-add_example_test(example_flutter cardan 0 "air of the blade: wake none, profiles unsteady.*flutter of [12][a-z]+ blade [a-z]+ from 2[0-9.]+ rpm [(][+]-[0-9.]+: 2[0-9.]+ with 6 elements per blade, [23][0-9.]+ with 8[)], [0-9.]+ times the machine's, tip 1[0-9.]+ m/s.*files: example_flutter[.]h5" flutter nrel5mw
+add_example_test(example_flutter cardan 0 "air of the blade: wake none, airfoils unsteady.*flutter of [12][a-z]+ blade [a-z]+ from 2[0-9.]+ rpm [(][+]-[0-9.]+: 2[0-9.]+ with 6 elements per blade, [23][0-9.]+ with 8[)], [0-9.]+ times the machine's, tip 1[0-9.]+ m/s.*files: example_flutter[.]h5" flutter nrel5mw
     --rpm 15:30 --steps 5 --blade-elements 4 --tower-elements 1 --out example_flutter)
 add_example_test(example_flutter_bad cardan 1 "--rpm: value = 30:15; allowed: FIRST:LAST" flutter nrel5mw --rpm 30:15)
-add_example_test(example_flutter_profiles cardan 1 "--air: value = none, and the machine has no airfoils" flutter wt600)
+add_example_test(example_flutter_airfoils cardan 1 "--air: value = none, and the machine has no airfoils" flutter wt600)
 add_example_test(example_steady_rest cardan 0 "at rest.*tower base force z +-6[.][0-9]+e.06" steady nrel5mw --rpm 0 --all ${coarse} --out
     example_steady_rest)
 add_example_test(example_info_machine cardan 0 "blades +3, upwind\n.*rotor +12[56].*hub height +90 m.*air +19 sections, 8 airfoils with lags.*rated power +5296[.]61 kW.*efficiency 0[.]944.*total +[67][0-9.]+.*clamped.* 0.6[0-9]+ 1.0"

@@ -13,4 +13,4 @@ add_library_test(simulate simulate simulate nrel5mw --wind 12 --controller basel
 add_library_test(campbell campbell campbell nrel5mw)
 add_library_test(campbell_wind "campbell in the wind" campbell nrel5mw --wind 8,12 --max-frequency 3)
 add_library_test(linearise linearise linearise nrel5mw --wind 15 --max-frequency 3 --azimuths 8 --wake quasi-steady
-                 --steady-profiles)
+                 --steady-airfoils)

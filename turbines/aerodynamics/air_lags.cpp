@@ -26,8 +26,8 @@ constexpr std::array<StateKindOfAir, DynamicInflow::states> inflow_states{{{"ear
                                                                            {"early tangential inflow", "m/s", 1},
                                                                            {"axial inflow", "m/s", 1},
                                                                            {"tangential inflow", "m/s", 1}}};
-constexpr std::array<StateKindOfAir, UnsteadyProfile::states> profile_states{{{"fast wake of the profile", "rad", 0.1},
-                                                                              {"slow wake of the profile", "rad", 0.1},
+constexpr std::array<StateKindOfAir, UnsteadyAirfoil::states> airfoil_states{{{"fast wake of the airfoil", "rad", 0.1},
+                                                                              {"slow wake of the airfoil", "rad", 0.1},
                                                                               {"lagging lift", "1", 1},
                                                                               {"point of separation", "1", 1}}};
 
@@ -44,7 +44,7 @@ void find_first_states(AirLags& lags) {
 AirLags lags_of(const AirParts& parts) {
     if (parts.lags) return *parts.lags;
     AirLags out;
-    out.sections.resize(parts.blades.size() * parts.profile->sections());
+    out.sections.resize(parts.blades.size() * parts.airfoil->sections());
     return out;
 }
 
@@ -52,7 +52,7 @@ AirLags lags_of(const AirParts& parts) {
 
 std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& blade_numbers) {
     std::vector<StateInfo> all;
-    const std::size_t count = parts.profile->sections();
+    const std::size_t count = parts.airfoil->sections();
     for (std::size_t i = 0; i < parts.lags->sections.size(); ++i) {
         const SectionLags& lags = parts.lags->sections[i];
         const int number = blade_numbers[i / count];
@@ -66,7 +66,7 @@ std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& 
         if (lags.inflow_states() > 0)
             for (const StateKindOfAir& kind : inflow_states) add(kind, "wake");
         for (const StateKindOfAir& kind :
-             std::span(profile_states).last(static_cast<std::size_t>(lags.profile_states())))
+             std::span(airfoil_states).last(static_cast<std::size_t>(lags.airfoil_states())))
             add(kind, "airfoil lag");
     }
     return all;
@@ -75,7 +75,7 @@ std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& 
 // Through the wake of the rotor a section sees the mean wind at all blades.
 std::vector<ElementGroup> groups_of(const AirParts& parts, const std::vector<BodyId>& body_ids) {
     std::vector<ElementGroup> all;
-    const std::size_t count = parts.profile->sections();
+    const std::size_t count = parts.airfoil->sections();
     for (std::size_t i = 0; i < parts.lags->sections.size(); ++i) {
         const int states = parts.lags->sections[i].states();
         if (states == 0) continue;
@@ -98,18 +98,18 @@ MachineAir MachineAir::with(AirLags lags) const {
 }
 
 MachineAir MachineAir::lagging(AirLagOptions options) const {
-    const AeroBlade& blade = *parts_->profile;
-    if (!options.profiles.empty() && options.profiles.size() != blade.polars.size())
-        throw InputError("air that lags", "number of profiles", options.profiles.size(),
+    const AeroBlade& blade = *parts_->airfoil;
+    if (!options.airfoils.empty() && options.airfoils.size() != blade.polars.size())
+        throw InputError("air that lags", "number of airfoils", options.airfoils.size(),
                          text(blade.polars.size(), ", that of the blade's polars, or none"));
     if (options.dynamic_wake) require_positive("air that lags", "time of the wake [s]", options.wake_time);
     AirLags lags;
-    lags.profiles = std::make_shared<const std::vector<UnsteadyProfile>>(std::move(options.profiles));
+    lags.airfoils = std::make_shared<const std::vector<UnsteadyAirfoil>>(std::move(options.airfoils));
     const double tip = blade.position.back();
     for (const AirBlade& own : parts_->blades)
         for (std::size_t i = 0; i < blade.sections(); ++i) {
             SectionLags& section = lags.sections.emplace_back();
-            if (!lags.profiles->empty()) section.profile = &(*lags.profiles)[blade.profile[i]];
+            if (!lags.airfoils->empty()) section.airfoil = &(*lags.airfoils)[blade.airfoil[i]];
             if (!options.dynamic_wake || !has_balance(own.sections[i].annulus, parts_->options)) continue;
             section.wake = WakeLag::dynamic;
             section.times = inflow_times(options.wake_time, blade.position[i] / tip);
@@ -125,7 +125,7 @@ MachineAir MachineAir::with_frozen_wake(const ElementView& at) const {
 MachineAir MachineAir::with_frozen_wake(std::span<const std::vector<std::vector<SectionAir>>> states) const {
     if (states.empty()) throw InputError("frozen wake", "number of states", 0, "at least 1");
     AirLags lags = lags_of(*parts_);
-    const std::size_t count = parts_->profile->sections();
+    const std::size_t count = parts_->airfoil->sections();
     const double share = 1 / static_cast<double>(states.size());
     for (SectionLags& section : lags.sections) {
         section.wake = WakeLag::frozen;
@@ -172,7 +172,7 @@ double MachineAir::wake_time(const ElementView& at) const {
     double wind = 0;
     for (const std::vector<SectionAir>& blade : now)
         for (std::size_t i = 0; i < blade.size(); ++i) {
-            shares.push_back(parts_->profile->position[i] / parts_->profile->position.back());
+            shares.push_back(parts_->airfoil->position[i] / parts_->airfoil->position.back());
             axial.push_back(blade[i].induction.axial);
             wind += blade[i].V_x / static_cast<double>(now.size() * blade.size());
         }

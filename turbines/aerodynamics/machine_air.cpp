@@ -33,7 +33,7 @@ MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind
     if (layout.blades.empty()) throw InputError("air on a machine", "number of blades", 0, "at least 1");
     const Model& model = turbine.system().model;
     const auto parts = std::make_shared<Parts>(TowerAir(turbine, support, wind));
-    parts->profile = std::make_shared<const AeroBlade>(std::move(blade));
+    parts->airfoil = std::make_shared<const AeroBlade>(std::move(blade));
     parts->blade_numbers = layout.blade_numbers;
     parts->body_ids.resize(static_cast<std::size_t>(model.size()));
     for (int i = 0; i < model.size(); ++i) entry(parts->body_ids, model.index(BodyId{i})) = BodyId{i};
@@ -45,10 +45,10 @@ MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind
     parts->hub_place = hub.in_body.p;
     parts->hub_axis = hub.in_body.R.col(2);
     for (std::size_t k = 0; k < layout.blades.size(); ++k) {
-        parts->blades.push_back(air_blade(turbine, k, *parts->profile));
+        parts->blades.push_back(air_blade(turbine, k, *parts->airfoil));
         const AirBlade& own = parts->blades.back();
         const double coned = std::sqrt(std::max(0.0, 1 - std::pow(own.axis.dot(parts->hub_axis), 2)));
-        parts->radius = std::max(parts->radius, parts->profile->position.back() * coned);
+        parts->radius = std::max(parts->radius, parts->airfoil->position.back() * coned);
         parts->bodies.insert(parts->bodies.end(), own.path.begin(), own.path.end());
     }
     if (support.tower.has_influence()) parts->influence = influence_parts(turbine, support.tower);
@@ -179,7 +179,7 @@ double MachineAir::radius() const {
     return parts_->radius;
 }
 const AeroBlade& MachineAir::blade() const {
-    return *parts_->profile;
+    return *parts_->airfoil;
 }
 const Wind& MachineAir::wind() const {
     return parts_->wind;

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
-#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "elements/aerodynamics/unsteady_airfoil.hpp"
 #include "mbs/system/channel.hpp"
 #include "turbines/aerodynamics/tower_air.hpp"
 #include "turbines/model/assembly.hpp"
@@ -28,8 +28,8 @@ struct AirLags;
 /// Options of unsteady aerodynamics: states of first order that lag behind the motion.
 struct AirLagOptions {
     /// In the place of the blade's polars, one for each; those of cylinders and of the like lag in nothing. Empty:
-    /// profiles are steady.
-    std::vector<UnsteadyProfile> profiles = {};
+    /// airfoils are steady.
+    std::vector<UnsteadyAirfoil> airfoils = {};
     bool dynamic_wake = false;  ///< DynamicInflow in every section but those without balance of momentum, root and tip
     double wake_time = 0;       ///< tau_1 of a dynamic wake, s: MachineAir::wake_time()
 };
@@ -54,7 +54,7 @@ public:
     MachineAir in(const Wind& wind) const;
 
     /// A copy with air that lags. Functions of a state then take the states of the air as well: values().
-    /// @throws InputError for another number of profiles than of polars, a time that is not positive
+    /// @throws InputError for another number of airfoils than of polars, a time that is not positive
     MachineAir lagging(AirLagOptions options) const;
     /// A copy whose induced velocities are those of a state for ever; airfoils lag as before.
     MachineAir with_frozen_wake(const ElementView& at) const;

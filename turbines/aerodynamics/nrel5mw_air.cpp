@@ -18,7 +18,7 @@ CsvTable table(const char* name) {
 
 std::vector<Polar> polars() {
     const CsvTable t = table("nrel5mw_polars.csv");
-    const auto number = t.column("profile"), angle = t.column("angle_of_attack", "deg"),
+    const auto number = t.column("airfoil"), angle = t.column("angle_of_attack", "deg"),
                lift = t.column("lift_coefficient"), drag = t.column("drag_coefficient"),
                moment = t.column("moment_coefficient");
     std::vector<Polar> out;
@@ -30,18 +30,18 @@ std::vector<Polar> polars() {
             d.push_back(drag[next]);
             m.push_back(moment[next]);
         }
-        out.emplace_back(text("profile ", number[i]), std::move(a), std::move(l), std::move(d), std::move(m));
+        out.emplace_back(text("airfoil ", number[i]), std::move(a), std::move(l), std::move(d), std::move(m));
     }
     return out;
 }
 
 }  // namespace
 
-std::vector<UnsteadyProfile> nrel5mw_unsteady_profiles() {
+std::vector<UnsteadyAirfoil> nrel5mw_unsteady_airfoils() {
     const CsvTable t = table("nrel5mw_unsteady.csv");
     const auto slope = t.column("slope", "1/rad"), zero = t.column("zero_lift", "deg"),
                upper = t.column("upper", "deg"), lower = t.column("lower", "deg"), drag = t.column("least_drag");
-    std::vector<UnsteadyProfile> out;
+    std::vector<UnsteadyAirfoil> out;
     for (const Polar& polar : polars()) {
         const std::size_t i = out.size();
         out.emplace_back(polar, AttachedFlow{.slope = slope[i],
@@ -74,14 +74,14 @@ std::vector<double> centres_of_report(const AeroBlade& blade) {
 AeroBlade nrel5mw_aero_blade(Nrel5mwCentres centres) {
     const CsvTable t = table("nrel5mw_aero_blade.csv");
     const auto radius = t.column("radius", "m"), chord = t.column("chord", "m"), twist = t.column("twist", "deg"),
-               profile = t.column("profile");
+               airfoil = t.column("airfoil");
     AeroBlade blade;
     blade.polars = polars();
     for (std::size_t i = 0; i < t.rows(); ++i) {
         blade.position.push_back(radius[i]);
         blade.chord.push_back(chord[i]);
         blade.twist.push_back(twist[i] * units::degree);
-        blade.profile.push_back(static_cast<std::size_t>(profile[i]) - 1);
+        blade.airfoil.push_back(static_cast<std::size_t>(airfoil[i]) - 1);
     }
     if (centres == Nrel5mwCentres::report) {
         blade.prebend.assign(blade.sections(), 0);

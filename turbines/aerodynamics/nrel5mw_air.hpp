@@ -6,7 +6,7 @@
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
-#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "elements/aerodynamics/unsteady_airfoil.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -20,12 +20,12 @@ enum class Nrel5mwCentres : std::uint8_t {
                  ///< which the blade twists
 };
 
-/// 19 sections from the root (1.5 m) to the tip (63 m), eight profiles.
+/// 19 sections from the root (1.5 m) to the tip (63 m), eight airfoils.
 AeroBlade nrel5mw_aero_blade(Nrel5mwCentres centres = Nrel5mwCentres::pitch_axis);
 
 /// Airfoils of the machine with the lags of their flow; the two cylinders have none. Angles without lift and of
-/// separation from the public files; that of the NACA64 profile is the zero of its table
+/// separation from the public files; that of the NACA64 airfoil is the zero of its table
 /// (turbines/data/nrel5mw_unsteady.csv).
-std::vector<UnsteadyProfile> nrel5mw_unsteady_profiles();
+std::vector<UnsteadyAirfoil> nrel5mw_unsteady_airfoils();
 
 }  // namespace cardan::turbines

@@ -18,12 +18,12 @@ Wind wind_of_result(const std::filesystem::path& path) {
     throw InputError("SimulationSettings::wind", "file", path.string(), "a result of a run in the wind");
 }
 
-Wind wind_of_file(const std::filesystem::path& path, const SteadyWind& profile, const Report& report) {
+Wind wind_of_file(const std::filesystem::path& path, const SteadyWind& airfoil, const Report& report) {
     if (is_result(path)) return wind_of_result(path);
-    if (lower_case(path.extension().string()) == ".csv") return read_wind_table(path, profile);
-    InflowWindFile read = read_inflow_wind(path, profile.density);
+    if (lower_case(path.extension().string()) == ".csv") return read_wind_table(path, airfoil);
+    InflowWindFile read = read_inflow_wind(path, airfoil.density);
     report_remark(report, {.kind = Remark::Kind::file, .text = path.string(), .entries = std::move(read.notes)});
-    return read.wind.over(profile.ground);
+    return read.wind.over(airfoil.ground);
 }
 
 }  // namespace
@@ -46,16 +46,16 @@ SteadyWind wind_profile(const Turbine& turbine, const Machine& machine, const Ai
     return wind;
 }
 
-Wind wind_of(const WindSource& source, const SteadyWind& profile, const Report& report) {
+Wind wind_of(const WindSource& source, const SteadyWind& airfoil, const Report& report) {
     if (source.wind() != nullptr) return *source.wind();
-    if (source.file() != nullptr) return wind_of_file(*source.file(), profile, report);
-    SteadyWind wind = profile;
+    if (source.file() != nullptr) return wind_of_file(*source.file(), airfoil, report);
+    SteadyWind wind = airfoil;
     wind.speed = *source.speed();
     return wind;
 }
 
 std::string air_in_words(std::string_view wake, bool airfoils_unsteady) {
-    return text("wake ", wake, ", profiles ", airfoils_unsteady ? "unsteady" : "steady");
+    return text("wake ", wake, ", airfoils ", airfoils_unsteady ? "unsteady" : "steady");
 }
 
 std::string air_in_equilibrium(const Aerodynamics& air) {

@@ -20,11 +20,11 @@ Aerodynamics air_of(const Machine& machine, const AirSettings& settings);
 SteadyWind wind_profile(const Turbine& turbine, const Machine& machine, const AirSettings& settings, double density);
 
 /// Steady or over time. Entries of a file that are not used are reported.
-/// @param profile  for what the source does not say; that of a result is complete
+/// @param airfoil  for what the source does not say; that of a result is complete
 /// @throws InputError for a result without wind; ParseError, FileError
-Wind wind_of(const WindSource& source, const SteadyWind& profile, const Report& report = {});
+Wind wind_of(const WindSource& source, const SteadyWind& airfoil, const Report& report = {});
 
-/// The air's unsteadiness in words: "wake dynamic, profiles unsteady".
+/// The air's unsteadiness in words: "wake dynamic, airfoils unsteady".
 /// @param wake  name_of(Wake), or "none"
 std::string air_in_words(std::string_view wake, bool airfoils_unsteady);
 /// The air of operating points and time histories in words: induced velocities, if there are any, and coefficients are

@@ -165,12 +165,12 @@ AeroelasticOptions aeroelastic_options(const VibrationSettings& settings, const 
     AeroelasticOptions options;
     // Without induced velocities none can lag.
     if (air.options.induction) options.wake = settings.wake;
-    if (settings.unsteady_airfoils) options.profiles = air.unsteady_airfoils;
+    if (settings.unsteady_airfoils) options.airfoils = air.unsteady_airfoils;
     return options;
 }
 
 std::string in_words(const AeroelasticOptions& options, const Aerodynamics& air) {
-    return air_in_words(air.options.induction ? name_of(options.wake) : "none", !options.profiles.empty());
+    return air_in_words(air.options.induction ? name_of(options.wake) : "none", !options.airfoils.empty());
 }
 
 }  // namespace cardan::turbines

@@ -65,7 +65,7 @@ Machine nrel5mw_machine(TurbineDescription description, Beams blades, Beams towe
     machine.controller.generator_efficiency = efficiency;
     Aerodynamics& air = machine.air.emplace();
     air.blade = nrel5mw_aero_blade();
-    air.unsteady_airfoils = nrel5mw_unsteady_profiles();
+    air.unsteady_airfoils = nrel5mw_unsteady_airfoils();
     air.torsion_sweep = nrel5mw_aero_blade(Nrel5mwCentres::report).sweep;
     machine.no_air.clear();
     return machine;

@@ -4,7 +4,7 @@
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
 #include "elements/aerodynamics/tower.hpp"
-#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "elements/aerodynamics/unsteady_airfoil.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/operation/wind_operation.hpp"
 #include "turbines/readers/turbine_file.hpp"
@@ -23,8 +23,8 @@ struct Aerodynamics {
     /// Drag of tower and nacelle, tower influence. Heights as the file has them: support_on() sets the tower's foot.
     AeroSupport support = {};
     /// In the place of the blade's polars, one for each, where the flow lags behind the motion
-    /// (AirLagOptions::profiles); empty: there are no data of it.
-    std::vector<UnsteadyProfile> unsteady_airfoils = {};
+    /// (AirLagOptions::airfoils); empty: there are no data of it.
+    std::vector<UnsteadyAirfoil> unsteady_airfoils = {};
     /// Sweep of the aerodynamic centres behind the pitch axis, m, for all that asks for the torsion of the blade, where
     /// `blade` has them on that axis for the sake of comparison; empty: those of `blade` hold.
     std::vector<double> torsion_sweep = {};

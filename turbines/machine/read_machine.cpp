@@ -31,7 +31,7 @@ Aerodynamics air_of(AeroDynFile file) {
             .options = file.options,
             .density = file.density,
             .support = std::move(file.support),
-            .unsteady_airfoils = std::move(file.profiles),
+            .unsteady_airfoils = std::move(file.airfoils),
             .notes = std::move(file.notes)};
 }
 
@@ -39,7 +39,7 @@ Aerodynamics air_of(WindioAir file) {
     return {.blade = std::move(file.blade),
             .options = file.options,
             .density = file.density,
-            .unsteady_airfoils = std::move(file.profiles),
+            .unsteady_airfoils = std::move(file.airfoils),
             .notes = std::move(file.notes)};
 }
 

@@ -85,9 +85,9 @@ AeroelasticPoint aeroelastic(const WindOperation& operation, const WindPoint& po
     const Model& model = still.system().model;
     const MachineAir steady = operation.air_at(point.operation);
     const Revolution revolution(point, steady, model);
-    AirLagOptions lags{.profiles = options.profiles, .dynamic_wake = options.wake == Wake::dynamic};
+    AirLagOptions lags{.airfoils = options.airfoils, .dynamic_wake = options.wake == Wake::dynamic};
     if (lags.dynamic_wake) lags.wake_time = revolution.wake_time();
-    const bool nothing_lags = !lags.dynamic_wake && lags.profiles.empty();
+    const bool nothing_lags = !lags.dynamic_wake && lags.airfoils.empty();
     const double wake_time = lags.wake_time;
     MachineAir air = nothing_lags ? steady : steady.lagging(std::move(lags));
     if (options.wake == Wake::frozen) air = air.with_frozen_wake(revolution.sections());

@@ -29,8 +29,8 @@ Wake wake_named(std::string_view name, const char* option);
 
 struct AeroelasticOptions {
     Wake wake = Wake::quasi_steady;
-    /// AirLagOptions::profiles; empty: the coefficients follow the angle of attack at once.
-    std::vector<UnsteadyProfile> profiles = {};
+    /// AirLagOptions::airfoils; empty: the coefficients follow the angle of attack at once.
+    std::vector<UnsteadyAirfoil> airfoils = {};
     /// The machine has the input "wind speed", for linear models: MachineAir::with_wind_input().
     bool wind_input = false;
 };

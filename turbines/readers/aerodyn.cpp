@@ -45,7 +45,7 @@ AeroBlade read_blade(const std::filesystem::path& path, double hub_radius, doubl
         blade.twist.push_back(t.column("BlTwist")[i] * units::degree);
         blade.prebend.push_back(t.column("BlCrvAC")[i]);
         blade.sweep.push_back(t.column("BlSwpAC")[i]);
-        blade.profile.push_back(static_cast<std::size_t>(id) - 1);
+        blade.airfoil.push_back(static_cast<std::size_t>(id) - 1);
         if (const double twist = t.column("BlTwist")[i]; std::abs(twist) > 180)
             t.fail(i, text("BlTwist = ", twist, "; allowed: -180 ... 180 degrees"));
         if (!(blade.chord.back() > 0)) t.fail(i, text("BlChord = ", blade.chord.back(), "; allowed: > 0"));
@@ -153,18 +153,19 @@ bool over_reynolds(OpenFastFile& file) {
 
 constexpr int hansen = 4, oye = 6;  // UA_Mod
 
-ProfileModel profile_model(OpenFastFile& file) {
-    return choice(file, "UA_Mod", "UAMod", 0) == oye ? ProfileModel::separation : ProfileModel::four_states;
+UnsteadyAirfoilModel airfoil_model(OpenFastFile& file) {
+    return choice(file, "UA_Mod", "UAMod", 0) == oye ? UnsteadyAirfoilModel::oye
+                                                     : UnsteadyAirfoilModel::beddoes_leishman;
 }
 
-// Do the files ask for profiles that lag? The models of UA_Mod are several, here are two.
+// Do the files ask for airfoils that lag? The models of UA_Mod are several, here are two.
 bool read_unsteady(OpenFastFile& file) {
     const int model = choice(file, "UA_Mod", "UAMod", 0);
     if (model == 0 || file.number_or_default("AFAeroMod", 2) == 1) return false;
     const bool same = model == hansen || model == oye;
     file.note(present(file, "UA_Mod", "UAMod"),
-              same ? "profiles lag where that is asked for; else they are steady here"
-                   : "where that is asked for profiles lag as with UA_Mod = 4; else they are steady here");
+              same ? "airfoils lag where that is asked for; else they are steady here"
+                   : "where that is asked for airfoils lag as with UA_Mod = 4; else they are steady here");
     return true;
 }
 
@@ -174,44 +175,44 @@ double part_of_radius(OpenFastFile& file, const char* keyword, double otherwise)
     return part;
 }
 
-std::vector<UnsteadyProfile> read_profiles(OpenFastFile& file, std::vector<FileNote>& notes) {
+std::vector<UnsteadyAirfoil> read_airfoils(OpenFastFile& file, std::vector<FileNote>& notes) {
     const auto column = [&](const char* keyword, int least) { return file.integer(keyword, least, 100); };
     PolarColumns columns{column("InCol_Alfa", 1), column("InCol_Cl", 1), column("InCol_Cd", 1), column("InCol_Cm", 0)};
     if (!file.flag("UseBlCm")) columns.moment = 0;
     const auto paths = file.paths("AFNames", static_cast<std::size_t>(file.integer("NumAFfiles", 1, 100000)));
     const bool all_tables = over_reynolds(file);
-    const ProfileModel model = profile_model(file);
-    std::vector<UnsteadyProfile> profiles;
-    profiles.reserve(paths.size());
+    const UnsteadyAirfoilModel model = airfoil_model(file);
+    std::vector<UnsteadyAirfoil> airfoils;
+    airfoils.reserve(paths.size());
     for (const std::filesystem::path& one : paths)
-        profiles.push_back(
-            file.follow("AFNames", [&] { return read_aerodyn_profile(one, columns, all_tables, model, notes); }));
-    return profiles;
+        airfoils.push_back(
+            file.follow("AFNames", [&] { return read_aerodyn_airfoil(one, columns, all_tables, model, notes); }));
+    return airfoils;
 }
 
-std::vector<Polar> polars_of(const std::vector<UnsteadyProfile>& profiles) {
+std::vector<Polar> polars_of(const std::vector<UnsteadyAirfoil>& airfoils) {
     std::vector<Polar> polars;
-    polars.reserve(profiles.size());
-    for (const UnsteadyProfile& profile : profiles) polars.push_back(profile.polar());
+    polars.reserve(airfoils.size());
+    for (const UnsteadyAirfoil& airfoil : airfoils) polars.push_back(airfoil.polar());
     return polars;
 }
 
-// Sections out of the range are steady: a profile with sections within and out of it is there twice then.
+// Sections out of the range are steady: an airfoil with sections within and out of it is there twice then.
 void keep_steady(OpenFastFile& file, AeroDynFile& out) {
     const double from = part_of_radius(file, "UAStartRad", 0), to = part_of_radius(file, "UAEndRad", 1);
     AeroBlade& blade = out.blade;
-    constexpr std::size_t none = 0;  // no twin is the first of all profiles
+    constexpr std::size_t none = 0;  // no twin is the first of all airfoils
     std::vector<std::size_t> twin(blade.polars.size(), none);
     for (std::size_t i = 0; i < blade.sections(); ++i) {
         const double part = blade.position[i] / blade.position.back();
-        std::size_t& profile = blade.profile[i];
-        if ((part >= from && part <= to) || !out.profiles[profile].is_unsteady()) continue;
-        if (twin[profile] == none) {
-            twin[profile] = blade.polars.size();
-            blade.polars.push_back(blade.polars[profile]);
-            out.profiles.emplace_back(blade.polars.back(), AttachedFlow{});
+        std::size_t& airfoil = blade.airfoil[i];
+        if ((part >= from && part <= to) || !out.airfoils[airfoil].is_unsteady()) continue;
+        if (twin[airfoil] == none) {
+            twin[airfoil] = blade.polars.size();
+            blade.polars.push_back(blade.polars[airfoil]);
+            out.airfoils.emplace_back(blade.polars.back(), AttachedFlow{});
         }
-        profile = twin[profile];
+        airfoil = twin[airfoil];
     }
 }
 
@@ -243,13 +244,13 @@ AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, d
                             .tangential_drag = file.flag("TIDrag")};
     out.support = {read_tower(file), read_nacelle(file)};
     out.unsteady = read_unsteady(file);
-    out.profiles = read_profiles(file, out.notes);
-    if (out.unsteady && std::ranges::any_of(out.profiles, [](const auto& one) { return one.polar().over_reynolds(); }))
-        file.note("AFTabMod", "profiles that lag are those of the first Reynolds number here");
+    out.airfoils = read_airfoils(file, out.notes);
+    if (out.unsteady && std::ranges::any_of(out.airfoils, [](const auto& one) { return one.polar().over_reynolds(); }))
+        file.note("AFTabMod", "airfoils that lag are those of the first Reynolds number here");
     const auto blade = [](int k) { return text("ADBlFile(", k, ")"); };
     out.source = text("# ", path.string(), "\n", file.text());
     out.blade = file.follow(
-        blade(1), [&] { return read_blade(file.path(blade(1)), hub_radius, blade_end, polars_of(out.profiles), out); });
+        blade(1), [&] { return read_blade(file.path(blade(1)), hub_radius, blade_end, polars_of(out.airfoils), out); });
     out.blade.viscosity = kinematic;
     keep_steady(file, out);
     for (int k = 2; k <= 3; ++k)

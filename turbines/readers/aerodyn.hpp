@@ -4,7 +4,7 @@
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
 #include "elements/aerodynamics/tower.hpp"
-#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "elements/aerodynamics/unsteady_airfoil.hpp"
 #include "turbines/readers/turbine_file.hpp"
 
 #include <filesystem>
@@ -22,17 +22,17 @@ struct AeroDynFile {
     /// Tower and nacelle; nothing where the file switches them off. Heights of the tower are those above the ground or
     /// the still water: AeroTower::foot is for the caller to set (TurbineFile::tower_foot).
     AeroSupport support = {};
-    /// Unsteady airfoils in the place of the polars of the blade, one for each: AirLagOptions::profiles. Those of
+    /// Unsteady airfoils in the place of the polars of the blade, one for each: AirLagOptions::airfoils. Those of
     /// cylinders and of sections out of UAStartRad ... UAEndRad lag in nothing.
-    std::vector<UnsteadyProfile> profiles = {};
+    std::vector<UnsteadyAirfoil> airfoils = {};
     bool unsteady = false;  ///< do the files ask for them (UA_Mod, AFAeroMod)?
 };
 
 /// The main file, all versions of AeroDyn 15, with the files it names. Taken as they are: induction, tip and hub
 /// losses, a' and drag in the balances, Pitt and Peters' skewed wake, pitching moments, polars over the Reynolds number
-/// (AFTabMod 2, KinVisc), drag of tower and nacelle, flow around the tower and its wake, data of unsteady profiles for
+/// (AFTabMod 2, KinVisc), drag of tower and nacelle, flow around the tower and its wake, data of unsteady airfoils for
 /// four states (UA_Mod 4), of the first table of each polar; what they leave out is found as AeroDyn does
-/// (attached_flow()). Noted: other unsteady profiles, unsteady data that do not fit their polar, dynamic wake, free
+/// (attached_flow()). Noted: other unsteady airfoils, unsteady data that do not fit their polar, dynamic wake, free
 /// vortices, polars over UserProp (AFTabMod 3: the first table of each is used), blades that
 /// differ. Polars that do not reach around the circle are taken with a note (AeroDyn holds the values of their ends).
 /// A main file of AeroDyn 12 to 14 has the blade in it; its polars lag with the flow that attached_flow() finds.

@@ -111,7 +111,7 @@ public:
         try {
             read_sections();
             out_.blade.check();
-            out_.profiles = unsteady_profiles(out_.blade.polars);
+            out_.airfoils = unsteady_airfoils(out_.blade.polars);
         } catch (const InputError& error) {
             file_.root().fail(error.what());
         }
@@ -198,13 +198,13 @@ private:
             // Along the chord to the trailing edge, and across it to the suction side, downwind.
             blade.prebend.push_back(x.at(place) - x.at(0) + along * std::sin(angle) + across * std::cos(angle));
             blade.sweep.push_back(y.at(place) - y.at(0) + along * std::cos(angle) - across * std::sin(angle));
-            blade.profile.push_back(profile(row, pair));
+            blade.airfoil.push_back(airfoil(row, pair));
             if (blade.sections() > 1 && !(blade.position.back() > blade.position[blade.sections() - 2]))
                 axis["z"].fail(text(z.at(place), " m at ", place, " of the length; allowed: ascending"));
         }
     }
 
-    std::size_t profile(const AirfoilRow& row, const AirfoilPair& pair) {
+    std::size_t airfoil(const AirfoilRow& row, const AirfoilPair& pair) {
         for (std::size_t i = 0; i < pairs_.size(); ++i)
             if (pairs_[i].first == pair.first && pairs_[i].share == pair.share) return i;
         pairs_.push_back(pair);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
-#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "elements/aerodynamics/unsteady_airfoil.hpp"
 #include "turbines/readers/turbine_file.hpp"
 #include "turbines/yaml/model_addition.hpp"
 
@@ -19,9 +19,9 @@ struct WindioAir {
     double density = 1.225;  ///< kg/m^3
     std::vector<FileNote> notes;
     std::string source;  ///< text of the file
-    /// In the place of the polars of the blade, one for each, where air is to lag: AirLagOptions::profiles. The files
-    /// have no data of it: unsteady_profiles().
-    std::vector<UnsteadyProfile> profiles = {};
+    /// In the place of the polars of the blade, one for each, where air is to lag: AirLagOptions::airfoils. The files
+    /// have no data of it: unsteady_airfoils().
+    std::vector<UnsteadyAirfoil> airfoils = {};
 };
 
 /// The outer shape of the blade (outer_shape_bem, outer_shape) and the airfoils it names. Sections lie wherever chord,

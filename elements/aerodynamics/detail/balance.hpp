@@ -62,7 +62,7 @@ S blend(const S& t) {
 /// The balance of momentum at an angle of inflow phi [Ning 2014].
 ///
 /// Air from behind (V_x < 0) and a rotor that turns backwards (V_y < 0) are mirror images of the usual case. phi is
-/// that of the image in which both velocities are positive; the profile's angle of attack and the sign of its lift
+/// that of the image in which both velocities are positive; the airfoil's angle of attack and the sign of its lift
 /// follow from the sides that were changed.
 template <class S>
 class Balance {

@@ -50,46 +50,46 @@ TEST_CASE("attached flow: a line that bends", "[analytic]") {
     CHECK(flow.lower * units::to_degrees == Approx(-9 + 1.1).margin(0.5));
 }
 
-TEST_CASE("attached flow: slopes of the NREL 5 MW profiles are those that AeroDyn finds", "[discrete]") {
+TEST_CASE("attached flow: slopes of the NREL 5 MW airfoils are those that AeroDyn finds", "[discrete]") {
     // Slopes: AeroDyn of OpenFAST 5.0.0 (turbines/data/nrel5mw_unsteady.csv), from the least drag of its files.
-    for (const UnsteadyProfile& profile : turbines::nrel5mw_unsteady_profiles()) {
-        const AttachedFlow file = profile.flow();
-        CAPTURE(profile.polar().name());
-        const AttachedFlow own = attached_flow(profile.polar(), {.least_drag = file.least_drag});
+    for (const UnsteadyAirfoil& airfoil : turbines::nrel5mw_unsteady_airfoils()) {
+        const AttachedFlow file = airfoil.flow();
+        CAPTURE(airfoil.polar().name());
+        const AttachedFlow own = attached_flow(airfoil.polar(), {.least_drag = file.least_drag});
         CHECK(own.slope == Approx(file.slope).margin(1e-5));  // six digits
         CHECK(own.least_drag == file.least_drag);
         if (file.slope == 0) continue;
-        CHECK(profile.polar().at(own.zero_lift).lift == Approx(0).margin(1e-12));
+        CHECK(airfoil.polar().at(own.zero_lift).lift == Approx(0).margin(1e-12));
         // Of the files, which are not the zeros of their tables.
         CHECK(own.zero_lift * units::to_degrees == Approx(file.zero_lift * units::to_degrees).margin(0.17));
         // The least drag of the table instead changes neither line nor zero.
-        const AttachedFlow alone = attached_flow(profile.polar());
+        const AttachedFlow alone = attached_flow(airfoil.polar());
         CHECK(alone.slope == Approx(file.slope).epsilon(0.015));
         CHECK(alone.zero_lift == own.zero_lift);
     }
 }
 
-TEST_CASE("attached flow: the profile at rest has the lift of its table where Kirchhoff's flow can make it up",
+TEST_CASE("attached flow: the airfoil at rest has the lift of its table where Kirchhoff's flow can make it up",
           "[property]") {
-    const std::vector<UnsteadyProfile> profiles = unsteady_profiles(turbines::nrel5mw_aero_blade().polars);
-    REQUIRE(profiles.size() == 8);
-    for (const UnsteadyProfile& profile : profiles) {
-        CAPTURE(profile.polar().name());
-        const Polar::Table& table = profile.polar().table();
+    const std::vector<UnsteadyAirfoil> airfoils = unsteady_airfoils(turbines::nrel5mw_aero_blade().polars);
+    REQUIRE(airfoils.size() == 8);
+    for (const UnsteadyAirfoil& airfoil : airfoils) {
+        CAPTURE(airfoil.polar().name());
+        const Polar::Table& table = airfoil.polar().table();
         for (std::size_t i = 0; i < table.angles.size(); ++i) {
-            const double attack = table.angles[i], from_zero = attack - profile.flow().zero_lift,
-                         above = table.lift[i] - profile.flow().slope * from_zero;
-            const ProfileMotion at_rest{.attack = attack, .speed = 50, .rate = 0, .chord = 2};
-            const double lift = profile.coefficients(profile.steady(at_rest), at_rest).lift;
+            const double attack = table.angles[i], from_zero = attack - airfoil.flow().zero_lift,
+                         above = table.lift[i] - airfoil.flow().slope * from_zero;
+            const AirfoilMotion at_rest{.attack = attack, .speed = 50, .rate = 0, .chord = 2};
+            const double lift = airfoil.coefficients(airfoil.steady(at_rest), at_rest).lift;
             CAPTURE(attack * units::to_degrees);
             // No point of separation gives more than the line.
-            const double missing = profile.is_unsteady() && above * from_zero > 0 ? std::abs(above) : 0;
+            const double missing = airfoil.is_unsteady() && above * from_zero > 0 ? std::abs(above) : 0;
             CHECK(lift == Approx(table.lift[i]).margin(missing + 1e-12));
         }
     }
 }
 
-TEST_CASE("attached flow: profiles without lift, few points, falling lift have no slope", "[property]") {
+TEST_CASE("attached flow: airfoils without lift, few points, falling lift have no slope", "[property]") {
     const auto constant = [](double) { return 0.6; };
     const auto none = [](double) { return 0.0; };
     CHECK(attached_flow(polar_of(none, bucket)).slope == 0);
@@ -100,7 +100,7 @@ TEST_CASE("attached flow: profiles without lift, few points, falling lift have n
     CHECK(attached_flow(coarse).slope == 0);
     CHECK(attached_flow(coarse).least_drag == 0.01);
     CHECK(attached_flow(none_near).slope == 0);
-    CHECK(!unsteady_profiles({coarse}).front().is_unsteady());
+    CHECK(!unsteady_airfoils({coarse}).front().is_unsteady());
     // Three points are enough, on the circle's whole rest there may be none.
     const Polar three("three", {-pi, -0.15, 0, 0.15, pi}, {0, -0.6, 0.3, 1.2, 0}, {0.1, 0.02, 0.01, 0.02, 0.1},
                       {0, 0, 0, 0, 0});
@@ -123,7 +123,7 @@ TEST_CASE("attached flow: what is known is kept, and the rest follows from it", 
     // An end on the other side of what is found takes the other end with it.
     CHECK(attached_flow(polar, {.upper = -0.3}).lower == -0.3);
     CHECK(attached_flow(polar, {.lower = 0.3}).upper == 0.3);
-    check_refused([&] { UnsteadyProfile(polar, attached_flow(polar, {.upper = -0.1, .lower = 0.1})); },
+    check_refused([&] { UnsteadyAirfoil(polar, attached_flow(polar, {.upper = -0.1, .lower = 0.1})); },
                   {"lower [rad] = 0.1"});
 }
 

@@ -39,29 +39,29 @@ struct LaggingCase {
     }
 };
 
-// Six profiles with four states, then the same with one.
-std::vector<UnsteadyProfile> profiles_of_both_models() {
-    std::vector<UnsteadyProfile> all = turbines::nrel5mw_unsteady_profiles();
+// Six airfoils with four states, then the same with one.
+std::vector<UnsteadyAirfoil> airfoils_of_both_models() {
+    std::vector<UnsteadyAirfoil> all = turbines::nrel5mw_unsteady_airfoils();
     all.erase(all.begin(), all.begin() + 2);  // cylinders
     for (std::size_t i = 0; i < 6; ++i) all.emplace_back(all[i].polar(), all[i].flow(), oye_lags);
     return all;
 }
 
-LaggingCase random_lagging(Random& random, const std::vector<UnsteadyProfile>& profiles, int i) {
-    const UnsteadyProfile& profile = profiles[static_cast<std::size_t>(i % 6 + i / 6 % 2 * 6)];
+LaggingCase random_lagging(Random& random, const std::vector<UnsteadyAirfoil>& airfoils, int i) {
+    const UnsteadyAirfoil& airfoil = airfoils[static_cast<std::size_t>(i % 6 + i / 6 % 2 * 6)];
     LaggingCase out{{.radius = uniform(random, 5, 60),
                      .chord = uniform(random, 1, 5),
                      .angle = uniform(random, -0.1, 0.3),
                      .tip = std::pow(10.0, uniform(random, -1, 2)),
                      .hub = std::pow(10.0, uniform(random, -1, 2)),
-                     .polar = &profile.polar()},
+                     .polar = &airfoil.polar()},
                     {uniform(random, 2, 20),
                      uniform(random, 20, 90),
                      uniform(random, -0.5, 0.5),
                      {uniform(random, 0.05, 0.6), uniform(random, -0.5, 0.5), uniform(random, 0.2, 1)}},
                     SectionStates::Zero(),
                     {}};
-    if (i % 2 == 0) out.lags.profile = &profile;
+    if (i % 2 == 0) out.lags.airfoil = &airfoil;
     out.lags.wake = std::array{WakeLag::none, WakeLag::dynamic, WakeLag::frozen}.at(static_cast<std::size_t>(i % 3));
     out.lags.times = inflow_times(uniform(random, 2, 20), 0.7);
     out.lags.velocity = {-0.2 * out.motion.V_x, 0.01 * out.motion.V_y};
@@ -71,15 +71,15 @@ LaggingCase random_lagging(Random& random, const std::vector<UnsteadyProfile>& p
 }  // namespace
 
 TEST_CASE("lagging section: derivatives are those of loads and rates", "[property]") {
-    const std::vector<UnsteadyProfile> profiles = profiles_of_both_models();
+    const std::vector<UnsteadyAirfoil> airfoils = airfoils_of_both_models();
     Random random(17);
     int compared = 0;
     for (int i = 0; i < 1200; ++i) {
         const RotorAirOptions options;
-        LaggingCase at = random_lagging(random, profiles, i);
+        LaggingCase at = random_lagging(random, airfoils, i);
         at.s = steady_states(at.annulus, at.motion, options, at.lags);
         for (int k = 0; k < at.lags.states(); ++k) at.s(k) += uniform(random, -0.05, 0.05);
-        if (at.lags.has_profile()) at.s(at.lags.states() - 1) = uniform(random, 0.1, 0.9);  // within its limits
+        if (at.lags.has_airfoil()) at.s(at.lags.states() - 1) = uniform(random, 0.1, 0.9);  // within its limits
         const LaggingAir air = lagging_air(at.annulus, at.motion, at.s, options, 1.2, at.lags);
         const LaggingSlopes slopes = lagging_slopes(at.annulus, air, at.motion, at.s, options, 1.2, at.lags);
         const Response size = at.response(options).cwiseAbs();
@@ -102,12 +102,12 @@ TEST_CASE("lagging section: derivatives are those of loads and rates", "[propert
     CHECK(compared > 50000);
 }
 
-TEST_CASE("lagging section: at rest the wake is in equilibrium, and profiles are steady", "[crosscheck]") {
-    const std::vector<UnsteadyProfile> profiles = profiles_of_both_models();
+TEST_CASE("lagging section: at rest the wake is in equilibrium, and airfoils are steady", "[crosscheck]") {
+    const std::vector<UnsteadyAirfoil> airfoils = airfoils_of_both_models();
     Random random(5);
     for (int i = 0; i < 300; ++i) {
         const RotorAirOptions options;
-        LaggingCase at = random_lagging(random, profiles, 6 * i + 1);  // a dynamic wake, steady profiles
+        LaggingCase at = random_lagging(random, airfoils, 6 * i + 1);  // a dynamic wake, steady airfoils
         const SectionStates s = steady_states(at.annulus, at.motion, options, at.lags);
         const LaggingAir air = lagging_air(at.annulus, at.motion, s, options, 1.2, at.lags);
         CHECK(air.rates.norm() < 1e-12 * s.norm());
@@ -116,12 +116,12 @@ TEST_CASE("lagging section: at rest the wake is in equilibrium, and profiles are
         CHECK(air.air.force.driving == Approx(steady.force.driving).epsilon(1e-9).margin(1e-6));
 
         const Polar* const polar = at.annulus.polar;
-        at.lags.profile = &profiles[static_cast<std::size_t>(i % 12)];
-        at.annulus.polar = &at.lags.profile->polar();
+        at.lags.airfoil = &airfoils[static_cast<std::size_t>(i % 12)];
+        at.annulus.polar = &at.lags.airfoil->polar();
         const SectionStates both = steady_states(at.annulus, at.motion, options, at.lags);
         CHECK(lagging_air(at.annulus, at.motion, both, options, 1.2, at.lags).rates.norm() < 1e-10);
 
-        at.lags.profile = nullptr;
+        at.lags.airfoil = nullptr;
         at.annulus.polar = polar;
         at.lags.wake = WakeLag::frozen;
         at.lags.velocity = DynamicInflow::velocity(steady.induction, at.motion.V_x, at.motion.V_y);

@@ -1,4 +1,4 @@
-// Polars over the Reynolds number: interpolation, profiles between two others, which Reynolds number counts where, and
+// Polars over the Reynolds number: interpolation, airfoils between two others, which Reynolds number counts where, and
 // derivatives against differences.
 #include "elements/aerodynamics/rigid_rotor.hpp"
 #include "mbs/base/error.hpp"
@@ -14,7 +14,7 @@ namespace cardan::testing::polar_reynolds_tests {
 
 namespace {
 
-// A profile whose lift begins to fail later at higher Reynolds numbers.
+// An airfoil whose lift begins to fail later at higher Reynolds numbers.
 Polar::Table table_at(double reynolds, double stall, double drag) {
     Polar::Table table{.angles = {}, .lift = {}, .drag = {}, .moment = {}, .reynolds = reynolds};
     for (int i = -60; i <= 60; ++i) {
@@ -50,7 +50,7 @@ double reynolds(const Annulus& annulus, double u_x, double u_y) {
     return std::hypot(u_x, u_y) * annulus.chord / annulus.viscosity;
 }
 
-// The profile at one Reynolds number alone.
+// The airfoil at one Reynolds number alone.
 Polar frozen(const Polar& polar, double reynolds) {
     Polar::Table table = table_at(0, 0, 0);
     for (std::size_t i = 0; i < table.angles.size(); ++i) {
@@ -107,7 +107,7 @@ TEST_CASE("polar: tables that do not fit are refused", "[validation]") {
     CHECK_THAT(said({table_at(4e6, 2, 0), gap}), Contains("table 2") && Contains("-180 ... 180"));
 }
 
-TEST_CASE("polar: a profile between two others, over the angles and Reynolds numbers of both", "[analytic]") {
+TEST_CASE("polar: an airfoil between two others, over the angles and Reynolds numbers of both", "[analytic]") {
     const Polar a = three_tables();
     Polar::Table coarse{.angles = {-pi, 0.123, pi}, .lift = {0, 1, 0}, .drag = {1, 2, 1}, .moment = {0, 3, 0}};
     coarse.reynolds = 2e6;

@@ -1,7 +1,7 @@
-// Air that lags behind the motion: unsteady profiles and dynamic inflow against AeroDyn's numbers.
+// Air that lags behind the motion: unsteady airfoils and dynamic inflow against AeroDyn's numbers.
 #include "elements/aerodynamics/dynamic_inflow.hpp"
 #include "elements/aerodynamics/rigid_rotor.hpp"
-#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "elements/aerodynamics/unsteady_airfoil.hpp"
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
@@ -35,48 +35,48 @@ State integrated(State x, double from, double to, double step, const Rates& f) {
     return x;
 }
 
-UnsteadyProfile by_oye(const UnsteadyProfile& profile) {
-    return {profile.polar(), profile.flow(), oye_lags};
+UnsteadyAirfoil by_oye(const UnsteadyAirfoil& airfoil) {
+    return {airfoil.polar(), airfoil.flow(), oye_lags};
 }
 
 }  // namespace
 
-TEST_CASE("unsteady profiles: separation at the points of the polars", "[discrete]") {
-    const std::vector<UnsteadyProfile> profiles = turbines::nrel5mw_unsteady_profiles();
+TEST_CASE("unsteady airfoils: separation at the points of the polars", "[discrete]") {
+    const std::vector<UnsteadyAirfoil> airfoils = turbines::nrel5mw_unsteady_airfoils();
     const CsvTable table = unsteady_reference("separation.csv");
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const auto at = [&](const char* name) { return table.column(name)[i]; };
-        const UnsteadyProfile& profile = profiles[static_cast<std::size_t>(at("profile")) - 1];
-        if (!profile.is_unsteady()) continue;
-        const auto own = profile.separation(at("attack") * units::degree);
-        CAPTURE(at("profile"), at("attack"));
+        const UnsteadyAirfoil& airfoil = airfoils[static_cast<std::size_t>(at("airfoil")) - 1];
+        if (!airfoil.is_unsteady()) continue;
+        const auto own = airfoil.separation(at("attack") * units::degree);
+        CAPTURE(at("airfoil"), at("attack"));
         CHECK(own.f == Approx(at("f")).margin(3e-6));
         CHECK(own.lift == Approx(at("lift")).margin(3e-6));
     }
 }
 
-TEST_CASE("unsteady profiles: loops of pitching profiles, attached and stalled", "[discrete]") {
-    const std::vector<UnsteadyProfile> profiles = turbines::nrel5mw_unsteady_profiles();
-    const CsvTable table = unsteady_reference("aerodyn_unsteady_profile.csv");
+TEST_CASE("unsteady airfoils: loops of pitching airfoils, attached and stalled", "[discrete]") {
+    const std::vector<UnsteadyAirfoil> airfoils = turbines::nrel5mw_unsteady_airfoils();
+    const CsvTable table = unsteady_reference("aerodyn_unsteady_airfoil.csv");
     constexpr double speed = 50, chord = 3;
     REQUIRE(table.rows() == 5 * 24);
-    UnsteadyProfile::States x;
+    UnsteadyAirfoil::States x;
     double time = 0;
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const auto at = [&](const char* name) { return table.column(name)[i]; };
-        const UnsteadyProfile& profile = profiles[static_cast<std::size_t>(at("profile")) - 1];
+        const UnsteadyAirfoil& airfoil = airfoils[static_cast<std::size_t>(at("airfoil")) - 1];
         const double mean = at("mean") * units::degree, amplitude = at("amplitude") * units::degree,
                      frequency = 2 * speed * at("reduced_frequency") / chord;
         if (i % 24 == 0) {
             time = 0;
-            x = profile.steady({mean, speed, 0, chord});
+            x = airfoil.steady({mean, speed, 0, chord});
         }
-        x = integrated(x, time, at("time"), 1e-3, [&](double t, const UnsteadyProfile::States& now) {
-            return profile.rates(now, {mean + amplitude * std::sin(frequency * t), speed,
+        x = integrated(x, time, at("time"), 1e-3, [&](double t, const UnsteadyAirfoil::States& now) {
+            return airfoil.rates(now, {mean + amplitude * std::sin(frequency * t), speed,
                                        amplitude * frequency * std::cos(frequency * t), chord});
         });
         time = at("time");
-        const auto own = profile.coefficients(x, {at("attack") * units::degree, speed, at("rate"), chord});
+        const auto own = airfoil.coefficients(x, {at("attack") * units::degree, speed, at("rate"), chord});
         CAPTURE(i, time);
         // 16 bit of output.
         CHECK(own.lift == Approx(at("lift")).margin(1.5e-5));
@@ -85,76 +85,76 @@ TEST_CASE("unsteady profiles: loops of pitching profiles, attached and stalled",
     }
 }
 
-TEST_CASE("unsteady profiles: at rest they are steady, and their table's where f makes up its lift", "[property]") {
-    const std::vector<UnsteadyProfile> profiles = turbines::nrel5mw_unsteady_profiles();
-    for (const UnsteadyProfile& profile : {profiles.back(), by_oye(profiles.back())}) {
+TEST_CASE("unsteady airfoils: at rest they are steady, and their table's where f makes up its lift", "[property]") {
+    const std::vector<UnsteadyAirfoil> airfoils = turbines::nrel5mw_unsteady_airfoils();
+    for (const UnsteadyAirfoil& airfoil : {airfoils.back(), by_oye(airfoils.back())}) {
         for (const double degrees : {-4.0, 0.0, 5.0, 9.0, 14.0, 20.0}) {
-            const ProfileMotion motion{degrees * units::degree, 60, 0, 2};
-            const auto x = profile.steady(motion);
-            CHECK(profile.rates(x, motion).norm() < 1e-12);
-            const auto own = profile.coefficients(x, motion);
-            const Polar::Point table = profile.polar().at(motion.attack);
+            const AirfoilMotion motion{degrees * units::degree, 60, 0, 2};
+            const auto x = airfoil.steady(motion);
+            CHECK(airfoil.rates(x, motion).norm() < 1e-12);
+            const auto own = airfoil.coefficients(x, motion);
+            const Polar::Point table = airfoil.polar().at(motion.attack);
             CHECK(own.lift == Approx(table.lift).margin(1e-12));
             CHECK(own.drag == Approx(table.drag).margin(1e-12));
             CHECK(own.moment == Approx(table.moment).margin(1e-12));
         }
         // In steady rotation about the span too.
-        const ProfileMotion turning{0.1, 60, 0.4, 2};
-        CHECK(profile.rates(profile.steady(turning), turning).norm() < 1e-12);
+        const AirfoilMotion turning{0.1, 60, 0.4, 2};
+        CHECK(airfoil.rates(airfoil.steady(turning), turning).norm() < 1e-12);
     }
 }
 
-TEST_CASE("unsteady profiles: by Oye the point of separation follows a step of the angle exponentially", "[analytic]") {
-    const UnsteadyProfile profile = by_oye(turbines::nrel5mw_unsteady_profiles()[6]);
-    CHECK(profile.own_states() == 1);
+TEST_CASE("unsteady airfoils: by Oye the point of separation follows a step of the angle exponentially", "[analytic]") {
+    const UnsteadyAirfoil airfoil = by_oye(turbines::nrel5mw_unsteady_airfoils()[6]);
+    CHECK(airfoil.own_states() == 1);
     constexpr double speed = 60, chord = 2.4, lag = 6 * chord / (2 * speed);
-    const ProfileMotion before{6 * units::degree, speed, 0, chord}, after{16 * units::degree, speed, 0, chord};
-    const double from = profile.separation(before.attack).f, to = profile.separation(after.attack).f;
+    const AirfoilMotion before{6 * units::degree, speed, 0, chord}, after{16 * units::degree, speed, 0, chord};
+    const double from = airfoil.separation(before.attack).f, to = airfoil.separation(after.attack).f;
     REQUIRE(from - to > 0.3);
-    UnsteadyProfile::States x = profile.steady(before);
+    UnsteadyAirfoil::States x = airfoil.steady(before);
     double time = 0;
     for (const double next : {0.05, 0.12, 0.3, 0.8}) {
         x = integrated(x, time, next, 1e-3,
-                       [&](double, const UnsteadyProfile::States& now) { return profile.rates(now, after); });
+                       [&](double, const UnsteadyAirfoil::States& now) { return airfoil.rates(now, after); });
         time = next;
         const double f = to + (from - to) * std::exp(-time / lag);
-        CHECK(x(UnsteadyProfile::separation_point) == Approx(f).margin(1e-9));
+        CHECK(x(UnsteadyAirfoil::separation_point) == Approx(f).margin(1e-9));
         CHECK(x.head<3>().norm() == 0);
-        const double attached = profile.flow().slope * (after.attack - profile.flow().zero_lift);
-        const auto own = profile.coefficients(x, after);
-        CHECK(own.lift == Approx(f * attached + (1 - f) * profile.separation(after.attack).lift).margin(1e-9));
-        CHECK(own.drag == Approx(profile.polar().at(after.attack).drag));
+        const double attached = airfoil.flow().slope * (after.attack - airfoil.flow().zero_lift);
+        const auto own = airfoil.coefficients(x, after);
+        CHECK(own.lift == Approx(f * attached + (1 - f) * airfoil.separation(after.attack).lift).margin(1e-9));
+        CHECK(own.drag == Approx(airfoil.polar().at(after.attack).drag));
     }
     // The angle is that at three quarters of the chord, and the rate acts in no other way.
     const double rate = 0.7, beside = std::atan2(speed * std::sin(0.1) + rate * chord / 2, speed * std::cos(0.1));
-    const ProfileMotion turning{0.1, speed, rate, chord}, still{beside, speed, 0, chord};
-    CHECK(profile.coefficients(x, turning).lift == Approx(profile.coefficients(x, still).lift).margin(1e-12));
-    CHECK(profile.coefficients(x, turning).moment == Approx(profile.coefficients(x, still).moment).margin(1e-12));
+    const AirfoilMotion turning{0.1, speed, rate, chord}, still{beside, speed, 0, chord};
+    CHECK(airfoil.coefficients(x, turning).lift == Approx(airfoil.coefficients(x, still).lift).margin(1e-12));
+    CHECK(airfoil.coefficients(x, turning).moment == Approx(airfoil.coefficients(x, still).moment).margin(1e-12));
 }
 
-TEST_CASE("unsteady profiles: derivatives are those of rates and coefficients", "[property]") {
-    const std::vector<UnsteadyProfile> profiles = turbines::nrel5mw_unsteady_profiles();
+TEST_CASE("unsteady airfoils: derivatives are those of rates and coefficients", "[property]") {
+    const std::vector<UnsteadyAirfoil> airfoils = turbines::nrel5mw_unsteady_airfoils();
     Random random(3);
     for (int i = 0; i < 400; ++i) {
-        const UnsteadyProfile profile = i % 2 == 0 ? profiles[6] : by_oye(profiles[6]);
-        const ProfileMotion motion{uniform(random, -0.9, 0.9), uniform(random, 20, 80), uniform(random, -1, 1), 2.5};
-        UnsteadyProfile::States x = profile.steady(motion);
+        const UnsteadyAirfoil airfoil = i % 2 == 0 ? airfoils[6] : by_oye(airfoils[6]);
+        const AirfoilMotion motion{uniform(random, -0.9, 0.9), uniform(random, 20, 80), uniform(random, -1, 1), 2.5};
+        UnsteadyAirfoil::States x = airfoil.steady(motion);
         for (int k = 0; k < 3; ++k) x(k) += uniform(random, -0.05, 0.05);
         x(3) = uniform(random, 0.1, 0.9);
-        const auto slopes = profile.slopes(x, motion);
+        const auto slopes = airfoil.slopes(x, motion);
         const auto moved = [&](int column, double h) {
-            ProfileMotion other = motion;
-            UnsteadyProfile::States y = x;
-            if (column < UnsteadyProfile::states) y(column) += h;
-            if (column == UnsteadyProfile::Slopes::attack) other.attack += h;
-            if (column == UnsteadyProfile::Slopes::speed) other.speed += h;
-            if (column == UnsteadyProfile::Slopes::rate) other.rate += h;
-            const auto c = profile.coefficients(y, other);
+            AirfoilMotion other = motion;
+            UnsteadyAirfoil::States y = x;
+            if (column < UnsteadyAirfoil::states) y(column) += h;
+            if (column == UnsteadyAirfoil::Slopes::attack) other.attack += h;
+            if (column == UnsteadyAirfoil::Slopes::speed) other.speed += h;
+            if (column == UnsteadyAirfoil::Slopes::rate) other.rate += h;
+            const auto c = airfoil.coefficients(y, other);
             Eigen::Matrix<double, 7, 1> out;
-            out << profile.rates(y, other), c.lift, c.drag, c.moment;
+            out << airfoil.rates(y, other), c.lift, c.drag, c.moment;
             return out;
         };
-        for (int column = 0; column < UnsteadyProfile::Slopes::columns; ++column) {
+        for (int column = 0; column < UnsteadyAirfoil::Slopes::columns; ++column) {
             constexpr double h = 1e-7;
             const Eigen::Matrix<double, 7, 1> above = (moved(column, h) - moved(column, 0)) / h,
                                               below = (moved(column, 0) - moved(column, -h)) / h;
@@ -167,11 +167,11 @@ TEST_CASE("unsteady profiles: derivatives are those of rates and coefficients", 
     }
 }
 
-TEST_CASE("unsteady profiles: what is refused", "[validation]") {
+TEST_CASE("unsteady airfoils: what is refused", "[validation]") {
     const Polar polar = turbines::nrel5mw_aero_blade().polars.back();
-    check_refused([&] { UnsteadyProfile(polar, {.slope = -1}); }, {"profile 8", "slope", "-1"});
-    check_refused([&] { UnsteadyProfile(polar, {.slope = 6, .upper = -0.2, .lower = 0.1}); }, {"lower [rad] = 0.1"});
-    check_refused([&] { UnsteadyProfile(polar, {.slope = 6}, {.b1 = 0}); }, {"b1 = 0"});
+    check_refused([&] { UnsteadyAirfoil(polar, {.slope = -1}); }, {"airfoil 8", "slope", "-1"});
+    check_refused([&] { UnsteadyAirfoil(polar, {.slope = 6, .upper = -0.2, .lower = 0.1}); }, {"lower [rad] = 0.1"});
+    check_refused([&] { UnsteadyAirfoil(polar, {.slope = 6}, {.b1 = 0}); }, {"b1 = 0"});
 }
 
 TEST_CASE("dynamic inflow: a step of the pitch of a rigid rotor", "[discrete]") {

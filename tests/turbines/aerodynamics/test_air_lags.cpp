@@ -59,11 +59,11 @@ private:
     std::optional<Kinematics> kin_;
 };
 
-MachineAir lagging_air_of(const Turbine& machine, Skew skew, bool profiles = true) {
+MachineAir lagging_air_of(const Turbine& machine, Skew skew, bool airfoils = true) {
     RotorAirOptions options;
     options.skew = skew;
     AirLagOptions lags{.dynamic_wake = true, .wake_time = 8};
-    if (profiles) lags.profiles = nrel5mw_unsteady_profiles();
+    if (airfoils) lags.airfoils = nrel5mw_unsteady_airfoils();
     return MachineAir(machine, nrel5mw_aero_blade(), sheared, options).lagging(lags);
 }
 
@@ -158,19 +158,19 @@ TEST_CASE("lagging air on a machine: names and groups of the states; what is ref
     CHECK(states[states.index("blade 2 section 5 axial inflow")].blade == 2);
     CHECK(states.find("blade 1 section 1 axial inflow") < 0);         // no balance of momentum at the root
     CHECK(states.find("blade 1 section 2 point of separation") < 0);  // a cylinder
-    CHECK(air.forces().state_groups().size() == 3 * 18);              // the tip's profile lags
+    CHECK(air.forces().state_groups().size() == 3 * 18);              // the tip's airfoil lags
     const MachineAir plain(machine, nrel5mw_aero_blade(), sheared);
-    std::vector<UnsteadyProfile> one_state;
-    for (const UnsteadyProfile& profile : nrel5mw_unsteady_profiles())
-        one_state.emplace_back(profile.polar(), profile.flow(), oye_lags);
-    CHECK(plain.lagging({.profiles = nrel5mw_unsteady_profiles()}).states() ==
-          4 * plain.lagging({.profiles = one_state}).states());
-    const Lagging oye(machine, plain.lagging({.profiles = one_state}));
+    std::vector<UnsteadyAirfoil> one_state;
+    for (const UnsteadyAirfoil& airfoil : nrel5mw_unsteady_airfoils())
+        one_state.emplace_back(airfoil.polar(), airfoil.flow(), oye_lags);
+    CHECK(plain.lagging({.airfoils = nrel5mw_unsteady_airfoils()}).states() ==
+          4 * plain.lagging({.airfoils = one_state}).states());
+    const Lagging oye(machine, plain.lagging({.airfoils = one_state}));
     CHECK(oye.forces().states()[0].name == "blade 1 section 5 point of separation");
     check_refused([&] { static_cast<void>(plain.lagging({.dynamic_wake = true})); }, {"time of the wake [s] = 0"});
-    std::vector<UnsteadyProfile> few = nrel5mw_unsteady_profiles();
+    std::vector<UnsteadyAirfoil> few = nrel5mw_unsteady_airfoils();
     few.pop_back();
-    check_refused([&] { static_cast<void>(plain.lagging({.profiles = few})); }, {"number of profiles = 7", "8"});
+    check_refused([&] { static_cast<void>(plain.lagging({.airfoils = few})); }, {"number of airfoils = 7", "8"});
 }
 
 }  // namespace cardan::testing::air_lag_tests

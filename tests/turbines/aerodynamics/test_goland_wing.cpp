@@ -68,7 +68,7 @@ AeroBlade strips(int elements) {
         blade.position.push_back(1 + span * i / elements);
         blade.chord.push_back(chord);
         blade.twist.push_back(0);
-        blade.profile.push_back(0);
+        blade.airfoil.push_back(0);
         blade.prebend.push_back(0);
         blade.sweep.push_back((quarter - elastic_axis) * chord);
     }
@@ -77,9 +77,9 @@ AeroBlade strips(int elements) {
 
 class WingInWind {
 public:
-    WingInWind(int elements, const std::optional<UnsteadyProfile>& profile, bool with_air = true)
+    WingInWind(int elements, const std::optional<UnsteadyAirfoil>& airfoil, bool with_air = true)
         : wing_(wing(elements, with_air)), air_(wing_, strips(elements), SteadyWind{}, without_wake()) {
-        if (profile) air_ = air_.lagging({.profiles = {*profile}});
+        if (airfoil) air_ = air_.lagging({.airfoils = {*airfoil}});
     }
     // Valid until the next call.
     CampbellCase in(double wind) {
@@ -116,13 +116,13 @@ StabilityOptions two_modes(int steps) {
     return options;
 }
 
-StabilityLimits wing_limits(int elements, const UnsteadyProfile& profile, double from, double to, int steps) {
-    WingInWind wing(elements, profile);
+StabilityLimits wing_limits(int elements, const UnsteadyAirfoil& airfoil, double from, double to, int steps) {
+    WingInWind wing(elements, airfoil);
     return stability_limits([&](double wind) { return wing.in(wind); }, "wind speed, m/s", from, to, two_modes(steps));
 }
 
-StabilityLimit wing_flutter(int elements, const UnsteadyProfile& profile, double from, double to) {
-    const StabilityLimits found = wing_limits(elements, profile, from, to, 2);
+StabilityLimit wing_flutter(int elements, const UnsteadyAirfoil& airfoil, double from, double to) {
+    const StabilityLimits found = wing_limits(elements, airfoil, from, to, 2);
     CAPTURE(elements, found.note);
     REQUIRE(found.first(Instability::flutter) != nullptr);
     return *found.first(Instability::flutter);

@@ -1,4 +1,4 @@
-// Flutter and divergence of a section on two springs in the air of a lagging profile, against Theodorsen's equations.
+// Flutter and divergence of a section on two springs in the air of a lagging airfoil, against Theodorsen's equations.
 #include "elements/aerodynamics/lagging_section.hpp"
 #include "solvers/campbell/stability_limits.hpp"
 #include "tests/oracles/strip_flutter.hpp"
@@ -28,7 +28,7 @@ oracles::StripFlutter theory() {
 // Wind along x, span along z: the lift of a positive angle of attack acts along -y, and plunge is y.
 class Section {
 public:
-    explicit Section(const UnsteadyProfile& profile) : profile_(profile) {
+    explicit Section(const UnsteadyAirfoil& airfoil) : airfoil_(airfoil) {
         const Link plunge = add_joint(tree_, {.name = "plunge", .kind = JointKind::prismatic, .axis = Vec3::UnitY()});
         const AirMass air(density, b);
         const RigidInertia own{mass, {offset, 0, 0}, Vec3(0, 0, inertia - mass * offset * offset).asDiagonal(), true},
@@ -67,19 +67,19 @@ private:
             const Vec3 relative = Vec3(wind, -at.qd(plunge_), 0) - rate * lever * Vec3(-along.y(), along.x(), 0);
             const Annulus annulus{.blades = 1, .radius = 1, .chord = 2 * b, .angle = std::atan2(along.x(), along.y())};
             const SectionMotion motion{.V_x = relative.x(), .V_y = relative.y(), .rate = rate, .wake = {}};
-            const SectionLags lags{.profile = &profile_};
+            const SectionLags lags{.airfoil = &airfoil_};
             SectionStates states = SectionStates::Zero();
-            states.head<UnsteadyProfile::states>() = at.s;
+            states.head<UnsteadyAirfoil::states>() = at.s;
             RotorAirOptions options;
             options.induction = false;
             const LaggingAir air = lagging_air(annulus, motion, states, options, density, lags);
             out.wrenches[0] = {Vec3(air.air.force.normal, -air.air.force.driving, 0), Vec3(0, 0, air.air.force.moment)};
-            out.f = air.rates.head<UnsteadyProfile::states>();
+            out.f = air.rates.head<UnsteadyAirfoil::states>();
         };
         return field;
     }
 
-    UnsteadyProfile profile_;
+    UnsteadyAirfoil airfoil_;
     Tree tree_;
     ForceSet forces_;
     FrameId centre_;
@@ -88,8 +88,8 @@ private:
     std::optional<System> system_;
 };
 
-StabilityLimits limits_of(const UnsteadyProfile& profile, double from, double to) {
-    Section section(profile);
+StabilityLimits limits_of(const UnsteadyAirfoil& airfoil, double from, double to) {
+    Section section(airfoil);
     StabilityOptions options;
     options.growth = 1e-12;  // of a system this small no more is rounding
     return stability_limits([&](double wind) { return section.in(wind); }, "wind speed, m/s", from, to, options);

@@ -62,16 +62,16 @@ void check_same_polars(const std::vector<Polar>& a, const std::vector<Polar>& b)
 }
 
 // Point of separation and rates of all states somewhere in the middle of things.
-void check_same_lags(const std::vector<UnsteadyProfile>& a, const std::vector<UnsteadyProfile>& b) {
+void check_same_lags(const std::vector<UnsteadyAirfoil>& a, const std::vector<UnsteadyAirfoil>& b) {
     REQUIRE(a.size() == b.size());
-    const ProfileMotion motion{.attack = 0.21, .speed = 37, .rate = 0.3, .chord = 0.7};
+    const AirfoilMotion motion{.attack = 0.21, .speed = 37, .rate = 0.3, .chord = 0.7};
     for (std::size_t i = 0; i < a.size(); ++i) {
         REQUIRE(a[i].is_unsteady() == b[i].is_unsteady());
         CHECK(a[i].own_states() == b[i].own_states());
         if (!a[i].is_unsteady()) continue;  // a cylinder
         CHECK(a[i].separation(0.17).f == b[i].separation(0.17).f);
-        CHECK(a[i].rates(UnsteadyProfile::States::Constant(0.1), motion) ==
-              b[i].rates(UnsteadyProfile::States::Constant(0.1), motion));
+        CHECK(a[i].rates(UnsteadyAirfoil::States::Constant(0.1), motion) ==
+              b[i].rates(UnsteadyAirfoil::States::Constant(0.1), motion));
     }
 }
 

@@ -57,7 +57,7 @@ public:
                    nrel5mw_aero_blade(), options(losses)) {}
 
     const WindOperation& operation() const { return machine_; }
-    // Found once: wakes and profiles share it.
+    // Found once: wakes and airfoils share it.
     const WindPoint& at(const Operation& operation) {
         const auto [entry, is_new] = points_.try_emplace({operation.wind, operation.rotor_speed, operation.pitch});
         if (is_new) entry->second = machine_.at(operation);
@@ -106,7 +106,7 @@ void check_alike(const Frequencies& a, const Frequencies& b, double tolerance) {
 }
 
 // Against a table of ElastoDyn and AeroDyn. Damping is compared but of modes whose names begin so.
-void check_modes(const std::string& file, const std::vector<UnsteadyProfile>& profiles,
+void check_modes(const std::string& file, const std::vector<UnsteadyAirfoil>& airfoils,
                  const std::vector<std::string>& left_out) {
     const CsvTable table = CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/" + file);
     std::map<double, Frequencies> vacuo;
@@ -120,7 +120,7 @@ void check_modes(const std::string& file, const std::vector<UnsteadyProfile>& pr
             const Operation operation{at("wind"), at("speed") * units::rpm, at("pitch") * units::degree};
             vacuo[at("wind")] = machine.in_vacuo(operation.rotor_speed);  // pitch zero, as the table's
             windy[key] =
-                machine.modes(operation, {.wake = frozen ? Wake::frozen : Wake::quasi_steady, .profiles = profiles});
+                machine.modes(operation, {.wake = frozen ? Wake::frozen : Wake::quasi_steady, .airfoils = airfoils});
         }
         const std::string name = mode_names.at(static_cast<std::size_t>(at("mode")) - 1);
         const double own = windy[key].natural.at(name) / vacuo[at("wind")].natural.at(name),
@@ -158,7 +158,7 @@ std::vector<solvers::Mode> modes_in_shapes(const AeroelasticPoint& point, double
 }
 
 // Every mode of the table beside the one whose eigenvalue is next to it.
-void check_modes_in_shapes(const std::string& file, const std::vector<UnsteadyProfile>& profiles) {
+void check_modes_in_shapes(const std::string& file, const std::vector<UnsteadyAirfoil>& airfoils) {
     const CsvTable table = CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/" + file);
     LevelMachine& machine = shared_machine();
     std::map<std::pair<double, bool>, std::vector<solvers::Mode>> known;
@@ -168,7 +168,7 @@ void check_modes_in_shapes(const std::string& file, const std::vector<UnsteadyPr
         std::vector<solvers::Mode>& modes = known[{at("wind"), frozen}];
         if (modes.empty()) {
             const WindPoint point = machine.at({at("wind"), at("speed") * units::rpm, at("pitch") * units::degree});
-            const AeroelasticOptions air{.wake = frozen ? Wake::frozen : Wake::quasi_steady, .profiles = profiles};
+            const AeroelasticOptions air{.wake = frozen ? Wake::frozen : Wake::quasi_steady, .airfoils = airfoils};
             modes = modes_in_shapes(aeroelastic(machine.operation(), point, air), at("speed") * units::rpm);
         }
         const double zeta = at("damping"), omega = 2 * pi * at("frequency");
@@ -194,15 +194,15 @@ TEST_CASE("aeroelastic modes: what the air makes of frequencies and damping, wak
     check_modes("elastodyn_modes.csv", {}, {"2nd tower"});
 }
 
-TEST_CASE("aeroelastic modes: likewise with unsteady profiles, but for the second modes", "[discrete]") {
-    check_modes("elastodyn_modes_unsteady.csv", nrel5mw_unsteady_profiles(), {"2nd tower", "2nd blade flap"});
+TEST_CASE("aeroelastic modes: likewise with unsteady airfoils, but for the second modes", "[discrete]") {
+    check_modes("elastodyn_modes_unsteady.csv", nrel5mw_unsteady_airfoils(), {"2nd tower", "2nd blade flap"});
 }
 
 // The experiment that shows where the rest comes from: tower and blades held to the shapes that ElastoDyn allows them.
 // Then frequencies themselves agree, and damping of all modes.
 TEST_CASE("aeroelastic modes: all of them in ElastoDyn's shapes", "[discrete]") {
     check_modes_in_shapes("elastodyn_modes.csv", {});
-    check_modes_in_shapes("elastodyn_modes_unsteady.csv", nrel5mw_unsteady_profiles());
+    check_modes_in_shapes("elastodyn_modes_unsteady.csv", nrel5mw_unsteady_airfoils());
 }
 
 // Without losses: where Prandtl's factor vanishes, in the last and the first section, a dynamic wake does not lag (no

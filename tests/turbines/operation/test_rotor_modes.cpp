@@ -37,7 +37,7 @@ WindOperation operation_of(const Iea22Rotor& rotor) {
 }  // namespace
 
 // The collective edge mode leaves the band at 24 m/s: 0.0123 of at least 0.0124 with eight elements, 0.0106 with
-// sixteen. It is the small difference of large parts there, structure 0.007, air with steady profiles 0.029, shed wake
+// sixteen. It is the small difference of large parts there, structure 0.007, air with steady airfoils 0.029, shed wake
 // -0.025, and nothing that was tried fits this mode without taking others out: generator and shaft, elements, wake,
 // operating point. Below rated power OpenFAST's numbers are those of a generator torque with the square of the speed,
 // HAWC2's those of a constant one, which is taken here.
@@ -63,7 +63,7 @@ TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", 
             operation.at({own("wind"), own("rotor_speed") * units::rpm, own("pitch") * units::degree})};
         REQUIRE(points[0].converged);
         const solvers::Campbell diagram =
-            aeroelastic_campbell(operation, points, {.wake = Wake::frozen, .profiles = rotor->air.profiles}, options);
+            aeroelastic_campbell(operation, points, {.wake = Wake::frozen, .airfoils = rotor->air.airfoils}, options);
         for (std::size_t i = 0; i < table.rows(); ++i) {
             const auto at = [&](const char* name) { return table.column(name)[i]; };
             if (at("wind") != own("wind")) continue;
@@ -94,15 +94,16 @@ TEST_CASE("rotor modes: how the shed wake lags decides on the collective edge mo
     WindOperation operation = operation_of(*rotor);
     const std::array points{operation.at({24, 7.0611 * units::rpm, 20.87848 * units::degree})};
     REQUIRE(points[0].converged);
-    const auto damping = [&](const std::vector<UnsteadyProfile>& profiles) {
+    const auto damping = [&](const std::vector<UnsteadyAirfoil>& airfoils) {
         const solvers::Campbell diagram = aeroelastic_campbell(
-            operation, points, {.wake = Wake::frozen, .profiles = profiles}, {.max_frequency_hz = 2});
+            operation, points, {.wake = Wake::frozen, .airfoils = airfoils}, {.max_frequency_hz = 2});
         return diagram.damping_ratio(diagram.branch("1st blade edge (collective)"), 0);
     };
-    std::vector<UnsteadyProfile> by_jones;
-    for (const UnsteadyProfile& own : rotor->air.profiles)
-        by_jones.emplace_back(own.polar(), own.flow(), ProfileLags{.A1 = 0.165, .A2 = 0.335, .b1 = 0.0455, .b2 = 0.3});
-    const double of_file = damping(rotor->air.profiles), jones = damping(by_jones), steady = damping({});
+    std::vector<UnsteadyAirfoil> by_jones;
+    for (const UnsteadyAirfoil& own : rotor->air.airfoils)
+        by_jones.emplace_back(own.polar(), own.flow(),
+                              UnsteadyAirfoilConstants{.A1 = 0.165, .A2 = 0.335, .b1 = 0.0455, .b2 = 0.3});
+    const double of_file = damping(rotor->air.airfoils), jones = damping(by_jones), steady = damping({});
     CAPTURE(of_file, jones, steady);
     CHECK(jones > 2.3 * of_file);
     CHECK(jones < 2.9 * of_file);

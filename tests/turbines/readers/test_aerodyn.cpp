@@ -96,13 +96,13 @@ TEST_CASE("aerodyn: sections, polars and options of newer files", "[analytic]") 
     CHECK(blade.chord[1] == 1.2);
     CHECK(blade.prebend[1] == -1.5);
     CHECK(blade.sweep[1] == 0.25);
-    CHECK(blade.profile == std::vector<std::size_t>{1, 0});
+    CHECK(blade.airfoil == std::vector<std::size_t>{1, 0});
     CHECK(blade.polars[0].name() == "polar_1.dat");
     CHECK(blade.polars[0].at(0).lift == Approx(0.25));
     CHECK(blade.polars[0].at(10 * units::degree).moment == Approx(-0.1));
     CHECK(blade.polars[1].at(1).drag == Approx(0.5));
     CHECK_NOTHROW(blade.check());
-    CHECK(test::has_note(file.notes, "UA_Mod", "profiles lag where that is asked for"));
+    CHECK(test::has_note(file.notes, "UA_Mod", "airfoils lag where that is asked for"));
     CHECK(test::has_note(file.notes, "ADBlFile(3)", "the sections of the first one"));
     CHECK(!test::has_note(file.notes, "ADBlFile(2)", "the sections of the first one"));
 }
@@ -114,7 +114,7 @@ TEST_CASE("aerodyn: older files, and what is left out", "[analytic]") {
     CHECK(file.options.skew == Skew::none);
     CHECK(file.options.momentum.axial_drag);
     CHECK(!file.options.momentum.tangential_drag);
-    CHECK(test::has_note(file.notes, "UAMod", "profiles lag as with UA_Mod = 4"));
+    CHECK(test::has_note(file.notes, "UAMod", "airfoils lag as with UA_Mod = 4"));
     model.replace("main.dat", "1 WakeMod", "0 WakeMod");
     model.replace("main.dat", "1 SkewMod", "2 SkewMod");
     model.replace("main.dat", "True UseBlCm", "False UseBlCm");
@@ -328,7 +328,7 @@ TEST_CASE("aerodyn: files of AeroDyn 14 and older: elements along the blade, opt
     CHECK(file.blade.position == std::vector<double>{2, 3, 6.5, 9});
     CHECK(file.blade.chord == std::vector<double>{1.5, 1.5, 1, 1});
     CHECK(file.blade.twist[1] == Approx(12 * units::degree));
-    CHECK(file.blade.profile == std::vector<std::size_t>{0, 0, 1, 1});
+    CHECK(file.blade.airfoil == std::vector<std::size_t>{0, 0, 1, 1});
     const auto at_10 = file.blade.polars[1].at(10 * units::degree);
     CHECK(at_10.lift == Approx(1.0));
     CHECK(at_10.moment == Approx(-0.05));
@@ -339,7 +339,7 @@ TEST_CASE("aerodyn: files of AeroDyn 14 and older: elements along the blade, opt
     CHECK(!file.options.momentum.hub_loss);
     CHECK(file.density == 1.1);
     CHECK(file.unsteady);
-    CHECK(file.profiles.size() == 2);
+    CHECK(file.airfoils.size() == 2);
     for (const auto& [keyword, why] : {std::pair("StallMod", "UA_Mod = 4"),
                                        {"TwrShad", "no shadow"},
                                        {"airfoil tables", "the first one"},

@@ -1,4 +1,4 @@
-// The air on blades from windIO files: both versions, profiles between airfoils, places of aerodynamic centres, what is
+// The air on blades from windIO files: both versions, airfoils between airfoils, places of aerodynamic centres, what is
 // refused, and a public model against its AeroDyn files.
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
@@ -32,7 +32,7 @@ std::string refusal(const char* file, const std::string& from, const std::string
 }
 
 const Polar& polar_at(const AeroBlade& blade, std::size_t section) {
-    return blade.polars[blade.profile[section]];
+    return blade.polars[blade.airfoil[section]];
 }
 
 std::size_t section_at(const AeroBlade& blade, double fraction) {
@@ -70,7 +70,7 @@ TEST_CASE("windio air: both versions of one blade are read as the same", "[cross
     CHECK(one.source.find("labels: [round") != std::string::npos);
 }
 
-TEST_CASE("windio air: sections, centres and profiles", "[analytic]") {
+TEST_CASE("windio air: sections, centres and airfoils", "[analytic]") {
     const AeroBlade blade = small("v2").blade;
     CHECK(blade.position.front() == hub);
     CHECK(blade.position.back() == Approx(hub + 10));
@@ -97,12 +97,12 @@ TEST_CASE("windio air: sections, centres and profiles", "[analytic]") {
     CHECK(polar_at(blade, 6).name() == "thin");
 }
 
-TEST_CASE("windio air: unsteady profiles from the polars alone", "[analytic]") {
+TEST_CASE("windio air: unsteady airfoils from the polars alone", "[analytic]") {
     const WindioAir air = small("v2");
-    REQUIRE(air.profiles.size() == air.blade.polars.size());
-    CHECK(!air.profiles[air.blade.profile.front()].is_unsteady());
+    REQUIRE(air.airfoils.size() == air.blade.polars.size());
+    CHECK(!air.airfoils[air.blade.airfoil.front()].is_unsteady());
     // Of the first table: the lift rises by 0.1, then by 0.09 per degree, its zero is at -4 deg.
-    const UnsteadyProfile& thin = air.profiles[air.blade.profile.back()];
+    const UnsteadyAirfoil& thin = air.airfoils[air.blade.airfoil.back()];
     CHECK(thin.polar().name() == "thin");
     CHECK(thin.flow().slope == Approx(0.09 / degree));
     CHECK(thin.flow().zero_lift == Approx(-4 * degree));

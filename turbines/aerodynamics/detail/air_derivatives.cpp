@@ -46,8 +46,8 @@ public:
         const Eigen::Index n = out.Q_q.rows();
         for (Columns6* sum : {&memory_.blade_q, &memory_.blade_qd, &memory_.trunk_q, &memory_.trunk_qd})
             sum->setZero(6, n);
-        memory_.by_q.resize(parts_.profile->sections());
-        memory_.by_qd.resize(parts_.profile->sections());
+        memory_.by_q.resize(parts_.airfoil->sections());
+        memory_.by_qd.resize(parts_.airfoil->sections());
         memory_.by_wake.resize(air.scratch_.sections.size());
         memory_.movers.resize(static_cast<std::size_t>(n));
         if (parts_.lags) memory_.lagging.resize(air.scratch_.sections.size());
@@ -103,7 +103,7 @@ private:
         return memory_.influence[section].by_qd(tower, mover(a), moves(a, tower.body));
     }
 
-    std::size_t index(std::size_t k, std::size_t i) const { return k * parts_.profile->sections() + i; }
+    std::size_t index(std::size_t k, std::size_t i) const { return k * parts_.airfoil->sections() + i; }
 
     Loads slopes_of(std::size_t all) {
         const SectionState& s = air_.scratch_.sections[all];
@@ -276,7 +276,7 @@ private:
 
     void add_wake_to_rates(const Matrix& wake, int a, MatrixOut& rates) const {
         for (std::size_t k = 0; k < parts_.blades.size(); ++k)
-            for (std::size_t i = 0; i < parts_.profile->sections(); ++i) {
+            for (std::size_t i = 0; i < parts_.airfoil->sections(); ++i) {
                 const std::size_t all = index(k, i);
                 const int m = parts_.lags->sections[all].states(), first = parts_.lags->first[all];
                 const double lever = air_.sections(k)[i].annulus.radius / parts_.radius;
@@ -292,7 +292,7 @@ private:
         memory_.mean_qd.setZero(3, by_q_.rows());
         const double share = 1 / static_cast<double>(air_.scratch_.sections.size());
         for (std::size_t k = 0; k < parts_.blades.size(); ++k)
-            for (std::size_t i = 0; i < parts_.profile->sections(); ++i) {
+            for (std::size_t i = 0; i < parts_.airfoil->sections(); ++i) {
                 const SectionState& s = air_.sections(k)[i];
                 if (!parts_.influence && s.wind_gradient.isZero(0)) continue;
                 const AirBlade& blade = parts_.blades[k];
@@ -351,7 +351,7 @@ private:
 
     void find_forces_of_wake() {
         using ByWake = Eigen::Matrix<double, 6, 3>;
-        const std::size_t sections = parts_.profile->sections();
+        const std::size_t sections = parts_.airfoil->sections();
         memory_.of_wake.setZero(by_q_.rows(), share_column() + 1);
         ByWake trunk = ByWake::Zero();
         const auto add = [&](int b, const auto& wrench, Eigen::Index column) {

@@ -70,7 +70,7 @@ double AirEvaluation::speed() const {
 }
 
 void AirEvaluation::place_sections() {
-    const std::size_t count = parts_.profile->sections(), all = parts_.blades.size() * count;
+    const std::size_t count = parts_.airfoil->sections(), all = parts_.blades.size() * count;
     scratch_.sections.resize(all);
     for (std::vector<Vec3>* places : {&scratch_.places, &scratch_.winds}) places->resize(all);
     for (std::vector<double>* numbers : {&scratch_.along_x, &scratch_.along_y, &scratch_.angles}) numbers->resize(all);
@@ -117,7 +117,7 @@ double AirEvaluation::sine(std::size_t blade) const {
 }
 
 SectionMotion AirEvaluation::motion_of(std::size_t section) const {
-    const std::size_t count = parts_.profile->sections();
+    const std::size_t count = parts_.airfoil->sections();
     const SectionState& s = scratch_.sections[section];
     const int body = parts_.blades[section / count].sections[section % count].body;
     const SectionInflow& inflow = scratch_.inflows[section];
@@ -169,7 +169,7 @@ void AirEvaluation::find_inductions() {
 
 void AirEvaluation::find_loads() {
     find_inductions();
-    const std::size_t count = parts_.profile->sections();
+    const std::size_t count = parts_.airfoil->sections();
     for (std::size_t blade = 0; blade < parts_.blades.size(); ++blade) {
         const double along = parts_.options.skew == Skew::none ? 0 : sine(blade);
         for (std::size_t i = blade * count; i < (blade + 1) * count; ++i) {

@@ -16,7 +16,7 @@ namespace cardan::turbines {
 
 /// Unsteady parts of the air: of all sections, one blade after the other.
 struct AirLags {
-    std::shared_ptr<const std::vector<UnsteadyProfile>> profiles;  ///< sections point to these
+    std::shared_ptr<const std::vector<UnsteadyAirfoil>> airfoils;  ///< sections point to these
     std::vector<SectionLags> sections;
     std::vector<int> first;  ///< index of a section's first state
     int states = 0;
@@ -24,7 +24,7 @@ struct AirLags {
 
 /// Parts of an evaluation that do not change with the state.
 struct AirParts {
-    std::shared_ptr<const AeroBlade> profile;  ///< of every blade; sections point to its polars
+    std::shared_ptr<const AeroBlade> airfoil;  ///< of every blade; sections point to its polars
     Wind wind = SteadyWind{};
     RotorAirOptions options;
     std::vector<AirBlade> blades;
@@ -91,7 +91,7 @@ public:
     AirEvaluation(const AirParts& parts, const ElementView& at, AirScratch& scratch);
 
     std::span<const SectionState> sections(std::size_t blade) const {
-        const std::size_t count = parts_.profile->sections();
+        const std::size_t count = parts_.airfoil->sections();
         return std::span(scratch_.sections).subspan(blade * count, count);
     }
     /// Wrench of a point: force and moment about it.

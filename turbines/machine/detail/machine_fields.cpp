@@ -9,7 +9,7 @@ namespace cardan::turbines {
 
 AirFields fields_of(const Aerodynamics& air) {
     AirFields fields{air, {}, {}};
-    for (const std::size_t index : air.blade.profile) fields.airfoil.push_back(static_cast<double>(index) + 1);
+    for (const std::size_t index : air.blade.airfoil) fields.airfoil.push_back(static_cast<double>(index) + 1);
     for (std::size_t i = 0; i < air.blade.polars.size(); ++i) {
         const Polar& polar = air.blade.polars[i];
         AirfoilFields& airfoil = fields.airfoils.emplace_back(AirfoilFields{polar.name(), {}});
@@ -17,7 +17,7 @@ AirFields fields_of(const Aerodynamics& air) {
         if (air.unsteady_airfoils.empty()) continue;
         airfoil.unsteady = {air.unsteady_airfoils[i].flow(), air.unsteady_airfoils[i].lags()};
     }
-    fields.air.blade.profile.clear();
+    fields.air.blade.airfoil.clear();
     fields.air.blade.polars.clear();
     fields.air.unsteady_airfoils.clear();
     return fields;
@@ -43,7 +43,7 @@ Aerodynamics aerodynamics_of(AirFields fields) {
     for (const double number : fields.airfoil) {
         if (number != std::round(number) || number < 1 || number > static_cast<double>(airfoils))
             throw InputError("blade", "airfoil", number, text("1 ... ", airfoils));
-        air.blade.profile.push_back(static_cast<std::size_t>(number) - 1);
+        air.blade.airfoil.push_back(static_cast<std::size_t>(number) - 1);
     }
     air.blade.check();
     require_positive("all", "density [kg/m^3]", air.density);

@@ -21,8 +21,8 @@ inline const char* name_of(TowerInfluence influence) {
 inline const char* name_of(TowerShadow shadow) {
     return shadow == TowerShadow::none ? "none" : shadow == TowerShadow::powles ? "powles" : "eames";
 }
-inline const char* name_of(ProfileModel model) {
-    return model == ProfileModel::four_states ? "four_states" : "separation";
+inline const char* name_of(UnsteadyAirfoilModel model) {
+    return model == UnsteadyAirfoilModel::beddoes_leishman ? "four_states" : "separation";
 }
 
 }  // namespace cardan
@@ -32,7 +32,7 @@ namespace cardan::turbines {
 /// Fields of an airfoil's unsteady aerodynamics.
 struct UnsteadyFields {
     AttachedFlow flow;
-    ProfileLags lags;
+    UnsteadyAirfoilConstants lags;
 };
 
 struct AirfoilFields {
@@ -67,7 +67,8 @@ void airfoil_fields(Archive& archive, Airfoil& airfoil) {
         archive.number("separation_above", unsteady.flow.upper);
         archive.number("separation_below", unsteady.flow.lower);
         archive.number("min_drag", unsteady.flow.least_drag);
-        archive.optional_choice("model", unsteady.lags.model, {ProfileModel::four_states, ProfileModel::separation});
+        archive.optional_choice("model", unsteady.lags.model,
+                                {UnsteadyAirfoilModel::beddoes_leishman, UnsteadyAirfoilModel::oye});
         archive.optional_number("A1", unsteady.lags.A1);
         archive.optional_number("A2", unsteady.lags.A2);
         archive.optional_number("b1", unsteady.lags.b1);

@@ -41,10 +41,10 @@ Polar old_polar(const std::filesystem::path& path, bool moments, std::vector<Fil
 // Radius and length along the blade, from the rotor's centre.
 struct Element {
     double radius, length, chord, twist;
-    std::size_t profile;
+    std::size_t airfoil;
 };
 
-std::vector<Element> read_elements(OpenFastFile& file, std::size_t profiles) {
+std::vector<Element> read_elements(OpenFastFile& file, std::size_t airfoils) {
     std::vector<Element> out;
     for (const OpenFastFile::Row& row : file.rows_after("BldNodes")) {
         file.require(row, 5, "RNodes, AeroTwst, DRNodes, Chord, NFoil");
@@ -52,8 +52,8 @@ std::vector<Element> read_elements(OpenFastFile& file, std::size_t profiles) {
         const auto refuse = [&](const char* what, double value, const std::string& allowed) {
             throw ParseError(file.name(), row.line, 0, text(what, " = ", value, "; allowed: ", allowed));
         };
-        if (v[4] != std::round(v[4]) || v[4] < 1 || v[4] > static_cast<double>(profiles))
-            refuse("NFoil", v[4], text("1 ... ", profiles));
+        if (v[4] != std::round(v[4]) || v[4] < 1 || v[4] > static_cast<double>(airfoils))
+            refuse("NFoil", v[4], text("1 ... ", airfoils));
         if (!(v[2] > 0)) refuse("DRNodes", v[2], "> 0");
         if (!(v[3] > 0)) refuse("Chord", v[3], "> 0");
         if (!(v[0] > (out.empty() ? 0 : out.back().radius))) refuse("RNodes", v[0], "> 0 and ascending");
@@ -70,7 +70,7 @@ AeroBlade blade_of(const std::vector<Element>& elements) {
         blade.position.push_back(position);
         blade.chord.push_back(e.chord);
         blade.twist.push_back(e.twist);
-        blade.profile.push_back(e.profile);
+        blade.airfoil.push_back(e.airfoil);
     };
     add(std::max(0.0, elements.front().radius - elements.front().length / 2), elements.front());
     for (const Element& e : elements) add(e.radius, e);
@@ -90,7 +90,7 @@ void read_options(OpenFastFile& file, AeroDynFile& out) {
     out.unsteady = !says(file, "StallMod", "steady");
     if (out.unsteady)
         file.note("StallMod",
-                  "where that is asked for profiles lag as with UA_Mod = 4 of AeroDyn 15; else they are "
+                  "where that is asked for airfoils lag as with UA_Mod = 4 of AeroDyn 15; else they are "
                   "steady here");
     if (file.has("TwrShad") && file.word("TwrShad") != "0") file.note("TwrShad", "the tower has no shadow here");
 }
@@ -116,7 +116,7 @@ AeroDynFile read_aerodyn14(OpenFastFile& file, double density, double viscosity)
     for (const auto& path : file.paths("FoilNm", static_cast<std::size_t>(file.integer("NumFoil", 1, 100000))))
         polars.push_back(file.follow("FoilNm", [&] { return old_polar(path, moments, out.notes); }));
     out.blade = blade_of(read_elements(file, polars.size()));
-    out.profiles = unsteady_profiles(polars);
+    out.airfoils = unsteady_airfoils(polars);
     out.blade.polars = std::move(polars);
     out.blade.viscosity = kinematic;
     out.source = text("# ", file.name(), "\n", file.text());

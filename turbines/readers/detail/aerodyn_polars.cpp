@@ -15,7 +15,7 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr double cut_out = 45, cut_out_range = 5;  // deg, of UnsteadyProfile
+constexpr double cut_out = 45, cut_out_range = 5;  // deg, of UnsteadyAirfoil
 constexpr double same_lift = 0.05;                 // at rest and in the table: Kirchhoff's flow makes up a little less
 constexpr double attached = 8 * units::degree;     // where it is looked at
 
@@ -103,9 +103,9 @@ private:
 };
 
 // What does not lift, as a cylinder, lags in nothing, and files then have zeros.
-ProfileLags lags_of(UnsteadyData& data, ProfileModel model, const Polar& polar) {
+UnsteadyAirfoilConstants lags_of(UnsteadyData& data, UnsteadyAirfoilModel model, const Polar& polar) {
     if (std::ranges::all_of(polar.table().lift, [](double lift) { return lift == 0; })) return {.model = model};
-    const ProfileLags thin;
+    const UnsteadyAirfoilConstants thin;
     return {.A1 = data.number("A1", 0).value_or(thin.A1),
             .A2 = data.number("A2", 0).value_or(thin.A2),
             .b1 = data.lag("b1", thin.b1),
@@ -132,13 +132,13 @@ AttachedFlow flow_of(OpenFastFile& file, UnsteadyData& data, const Polar& polar)
 }
 
 // Data that do not fit their own polar, as there are in public files: AeroDyn takes them.
-void note_misfit(OpenFastFile& file, const UnsteadyProfile& profile) {
-    const Polar::Table& table = profile.polar().table();
+void note_misfit(OpenFastFile& file, const UnsteadyAirfoil& airfoil) {
+    const Polar::Table& table = airfoil.polar().table();
     double largest = same_lift, where = 0;
     for (std::size_t i = 0; i < table.angles.size(); ++i) {
         if (std::abs(table.angles[i]) > attached) continue;
-        const ProfileMotion at_rest{.attack = table.angles[i], .speed = 50, .rate = 0, .chord = 1};
-        const double off = std::abs(profile.coefficients(profile.steady(at_rest), at_rest).lift - table.lift[i]);
+        const AirfoilMotion at_rest{.attack = table.angles[i], .speed = 50, .rate = 0, .chord = 1};
+        const double off = std::abs(airfoil.coefficients(airfoil.steady(at_rest), at_rest).lift - table.lift[i]);
         if (off <= largest) continue;
         largest = off;
         where = table.angles[i];
@@ -146,7 +146,7 @@ void note_misfit(OpenFastFile& file, const UnsteadyProfile& profile) {
     if (largest == same_lift) return;
     const auto rounded = [](double x, double step) { return std::round(x / step) * step; };
     file.note_of("InclUAdata", 0,
-                 text("alpha0 and the slope do not fit the polar: the lift of the unsteady profile at rest is off by ",
+                 text("alpha0 and the slope do not fit the polar: the lift of the unsteady airfoil at rest is off by ",
                       rounded(largest, 1e-3), " at ", rounded(where * units::to_degrees, 0.1), " deg"));
 }
 
@@ -154,11 +154,11 @@ void note_cut_out(OpenFastFile& file, UnsteadyData& data) {
     const auto check = [&](const char* keyword, double here, const char* why) {
         if (data.number(keyword).value_or(here) != here) file.note_of(keyword, 0, why);
     };
-    check("UACutout", cut_out, "unsteady profiles are steady from 45 deg on here");
-    check("UACutout_delta", cut_out_range, "unsteady profiles fade from 40 to 45 deg here");
+    check("UACutout", cut_out, "unsteady airfoils are steady from 45 deg on here");
+    check("UACutout_delta", cut_out_range, "unsteady airfoils fade from 40 to 45 deg here");
 }
 
-UnsteadyProfile made_profile(OpenFastFile& file, const Polar& polar, UnsteadyData& data, ProfileModel model) {
+UnsteadyAirfoil made_airfoil(OpenFastFile& file, const Polar& polar, UnsteadyData& data, UnsteadyAirfoilModel model) {
     try {
         return {polar, flow_of(file, data, polar), lags_of(data, model, polar)};
     } catch (const InputError& error) {  // numbers beyond all measure
@@ -168,18 +168,18 @@ UnsteadyProfile made_profile(OpenFastFile& file, const Polar& polar, UnsteadyDat
 
 }  // namespace
 
-UnsteadyProfile read_aerodyn_profile(const std::filesystem::path& path, const PolarColumns& columns, bool all,
-                                     ProfileModel model, std::vector<FileNote>& notes) {
+UnsteadyAirfoil read_aerodyn_airfoil(const std::filesystem::path& path, const PolarColumns& columns, bool all,
+                                     UnsteadyAirfoilModel model, std::vector<FileNote>& notes) {
     OpenFastFile file = OpenFastFile::read(path);
     const Polar polar = read_polar(file, path.filename().string(), columns, all, notes);
     UnsteadyData data(file);
-    UnsteadyProfile profile = made_profile(file, polar, data, model);
-    if (profile.is_unsteady() && data.is_included()) {
-        note_misfit(file, profile);
+    UnsteadyAirfoil airfoil = made_airfoil(file, polar, data, model);
+    if (airfoil.is_unsteady() && data.is_included()) {
+        note_misfit(file, airfoil);
         note_cut_out(file, data);
     }
     notes.insert(notes.end(), file.added_notes().begin(), file.added_notes().end());
-    return profile;
+    return airfoil;
 }
 
 }  // namespace cardan::turbines

@@ -106,7 +106,7 @@ Polar::Table polar_of_rows(const OpenFastFile& file, const std::vector<OpenFastF
     if (rows.empty()) return out;
     if (const auto least = std::ranges::min_element(out.drag); *least < 0)
         notes.push_back({file.name(), rows.front().line, "drag", text(*least, " ..."),
-                         "less than zero, taken as it is: such a profile drives itself"});
+                         "less than zero, taken as it is: such an airfoil drives itself"});
     const std::string range = in_degrees(out.angles.front(), out.angles.back());
     try {
         const std::string change = close_circle(out);

@@ -10,7 +10,7 @@
 
 namespace cardan::turbines {
 
-/// Profile as a blade uses it.
+/// Airfoil as a blade uses it.
 struct WindioAirfoil {
     double thickness;  ///< over the chord
     double centre;     ///< aerodynamic centre, from the leading edge over the chord

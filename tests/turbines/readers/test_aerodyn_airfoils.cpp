@@ -1,4 +1,4 @@
-// Unsteady profiles from AeroDyn's files: what they say, what they leave to the program, where profiles are steady.
+// Unsteady airfoils from AeroDyn's files: what they say, what they leave to the program, where airfoils are steady.
 #include "elements/aerodynamics/attached_flow.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
@@ -13,13 +13,13 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace cardan::testing::aerodyn_profile_tests {
+namespace cardan::testing::aerodyn_airfoil_tests {
 
 namespace {
 
 using namespace turbines;
 
-// A cylinder, and a profile at three Reynolds numbers in three sections.
+// A cylinder, and an airfoil at three Reynolds numbers in three sections.
 struct SmallModel : test::ModelFolder {
     SmallModel() : ModelFolder("aerodyn") {}
     AeroDynFile read() const { return read_aerodyn(*this / "small_AeroDyn.dat", 1); }
@@ -66,35 +66,35 @@ IeaState iea_state(const Turbine& machine, const MachineAir& air, double speed) 
 
 }  // namespace
 
-TEST_CASE("aerodyn profiles: what the file says, and what it leaves to the program", "[analytic]") {
+TEST_CASE("aerodyn airfoils: what the file says, and what it leaves to the program", "[analytic]") {
     const SmallModel model;
     AeroDynFile file = model.read();
-    REQUIRE(file.profiles.size() == file.blade.polars.size());
+    REQUIRE(file.airfoils.size() == file.blade.polars.size());
     CHECK(!file.unsteady);
-    CHECK(!file.profiles[0].is_unsteady());
-    const UnsteadyProfile& profile = file.profiles[1];
-    CHECK(profile.polar().name() == "small_Polar_2.dat");
-    AttachedFlow flow = profile.flow();
+    CHECK(!file.airfoils[0].is_unsteady());
+    const UnsteadyAirfoil& airfoil = file.airfoils[1];
+    CHECK(airfoil.polar().name() == "small_Polar_2.dat");
+    AttachedFlow flow = airfoil.flow();
     CHECK(flow.zero_lift == Approx(-3.1 * units::degree));
     // The slopes of its three points near zero agree; alpha1 lies beyond the range, alpha2 is not given.
     CHECK(flow.slope == Approx(0.09 / units::degree));
     CHECK(flow.upper == Approx(9 * units::degree));
     CHECK(flow.lower == Approx(-5 * units::degree));
     CHECK(flow.least_drag == 0.01);
-    const ProfileLags thin;
-    CHECK(profile.lags().A1 == thin.A1);
-    CHECK(profile.lags().boundary_layer == thin.boundary_layer);
+    const UnsteadyAirfoilConstants thin;
+    CHECK(airfoil.lags().A1 == thin.A1);
+    CHECK(airfoil.lags().boundary_layer == thin.boundary_layer);
 
     model.add_to_polar(
         "12 alphaUpper\n-8 alphaLower\n6.2 C_lalpha\n4 T_f0\n\"Default\" T_p\n0.15 b1\n0.5 b2\n.2 A1\n0.6 A2\n0.02 "
         "Cd0\n");
     file = model.read();
-    flow = file.profiles[1].flow();
+    flow = file.airfoils[1].flow();
     CHECK(flow.slope == 6.2);
     CHECK(flow.upper == Approx(12 * units::degree));
     CHECK(flow.lower == Approx(-8 * units::degree));
     CHECK(flow.least_drag == 0.02);
-    const ProfileLags lags = file.profiles[1].lags();
+    const UnsteadyAirfoilConstants lags = file.airfoils[1].lags();
     CHECK(lags.A1 == 0.2);
     CHECK(lags.A2 == 0.6);
     CHECK(lags.b1 == 0.15);
@@ -104,35 +104,35 @@ TEST_CASE("aerodyn profiles: what the file says, and what it leaves to the progr
     // All of it left to the program.
     model.replace("small_Polar_2.dat", "True       InclUAdata", "False      InclUAdata");
     file = model.read();
-    flow = file.profiles[1].flow();
+    flow = file.airfoils[1].flow();
     CHECK(flow.slope == Approx(0.09 / units::degree));
     CHECK(flow.zero_lift == Approx(-10.0 / 3 * units::degree));
     CHECK(flow.upper == Approx(5 * units::degree));
-    CHECK(file.profiles[1].lags().b1 == thin.b1);
+    CHECK(file.airfoils[1].lags().b1 == thin.b1);
     model.replace("small_Polar_2.dat", "False      InclUAdata", "");
-    CHECK(model.read().profiles[1].flow().slope == flow.slope);
+    CHECK(model.read().airfoils[1].flow().slope == flow.slope);
 }
 
-TEST_CASE("aerodyn profiles: data of a later table are not those of the first one", "[property]") {
+TEST_CASE("aerodyn airfoils: data of a later table are not those of the first one", "[property]") {
     const SmallModel model;
     model.replace("small_Polar_2.dat", "-3.1       alpha0      ! deg\n", "");
     model.replace("small_Polar_2.dat", "False      InclUAdata", "True       InclUAdata\n-2         alpha0");
-    CHECK(model.read().profiles[1].flow().zero_lift == Approx(-10.0 / 3 * units::degree));
+    CHECK(model.read().airfoils[1].flow().zero_lift == Approx(-10.0 / 3 * units::degree));
 }
 
-TEST_CASE("aerodyn profiles: where files ask for them, and sections that stay steady", "[property]") {
+TEST_CASE("aerodyn airfoils: where files ask for them, and sections that stay steady", "[property]") {
     const SmallModel model;
     model.add_to_main("4 UA_Mod - four states\n");
     AeroDynFile file = model.read();
     CHECK(file.unsteady);
-    CHECK(test::has_note(file.notes, "UA_Mod", "profiles lag where that is asked for"));
+    CHECK(test::has_note(file.notes, "UA_Mod", "airfoils lag where that is asked for"));
     CHECK(test::has_note(file.notes, "AFTabMod", "those of the first Reynolds number"));
-    CHECK(file.profiles[1].own_states() == 4);
+    CHECK(file.airfoils[1].own_states() == 4);
     model.replace("small_AeroDyn.dat", "4 UA_Mod", "6 UA_Mod");
     file = model.read();
-    CHECK(test::has_note(file.notes, "UA_Mod", "profiles lag where that is asked for"));
-    CHECK(file.profiles[1].own_states() == 1);
-    CHECK(file.profiles[1].lags().boundary_layer == 3);  // AeroDyn's default, not the usual 6
+    CHECK(test::has_note(file.notes, "UA_Mod", "airfoils lag where that is asked for"));
+    CHECK(file.airfoils[1].own_states() == 1);
+    CHECK(file.airfoils[1].lags().boundary_layer == 3);  // AeroDyn's default, not the usual 6
     model.replace("small_AeroDyn.dat", "6 UA_Mod", "3 UA_Mod");
     file = model.read();
     CHECK(file.unsteady);
@@ -144,20 +144,20 @@ TEST_CASE("aerodyn profiles: where files ask for them, and sections that stay st
     CHECK(!file.unsteady);
     CHECK(!test::has_note(file.notes, "UAMod", "lag"));
 
-    REQUIRE(file.blade.profile == std::vector<std::size_t>{0, 1, 1, 1});
+    REQUIRE(file.blade.airfoil == std::vector<std::size_t>{0, 1, 1, 1});
     model.add_to_main("0.5 UAStartRad - from\n0.9 UAEndRad - to\n");
     file = model.read();
-    REQUIRE(file.profiles.size() == 3);
+    REQUIRE(file.airfoils.size() == 3);
     REQUIRE(file.blade.polars.size() == 3);
-    CHECK(file.blade.profile == std::vector<std::size_t>{0, 2, 1, 2});
-    CHECK(file.profiles[1].is_unsteady());
-    CHECK(!file.profiles[2].is_unsteady());
+    CHECK(file.blade.airfoil == std::vector<std::size_t>{0, 2, 1, 2});
+    CHECK(file.airfoils[1].is_unsteady());
+    CHECK(!file.airfoils[2].is_unsteady());
     CHECK(file.blade.polars[2].name() == file.blade.polars[1].name());
     CHECK(file.blade.polars[2].over_reynolds());
     CHECK_NOTHROW(file.blade.check());
 }
 
-TEST_CASE("aerodyn profiles: data that do not fit their polar, and other limits, are noted", "[property]") {
+TEST_CASE("aerodyn airfoils: data that do not fit their polar, and other limits, are noted", "[property]") {
     const SmallModel model;
     CHECK(!test::has_note(model.read().notes, "InclUAdata", "do not fit"));
     CHECK(!test::has_note(model.read().notes, "UACutout", ""));
@@ -173,7 +173,7 @@ TEST_CASE("aerodyn profiles: data that do not fit their polar, and other limits,
     CHECK(note->file.ends_with("small_Polar_2.dat"));
 }
 
-TEST_CASE("aerodyn profiles: bad data are refused with file and line", "[validation]") {
+TEST_CASE("aerodyn airfoils: bad data are refused with file and line", "[validation]") {
     const std::string polar = "small_Polar_2.dat", alpha1 = "9.0        alpha1";
     const auto check = [](const std::string& message, std::initializer_list<std::string> parts) {
         for (const std::string& part : parts) {
@@ -195,17 +195,17 @@ TEST_CASE("aerodyn profiles: bad data are refused with file and line", "[validat
           {"small_AeroDyn.dat:20", "UAStartRad = 1.2; allowed: 0 ... 1"});
 }
 
-TEST_CASE("aerodyn profiles: a cylinder lags in nothing, whatever its file has for that", "[property]") {
+TEST_CASE("aerodyn airfoils: a cylinder lags in nothing, whatever its file has for that", "[property]") {
     const SmallModel model;
     model.replace("small_Polar_1.dat", "False      InclUAdata  ! none\n",
                   "True InclUAdata ! zeros\n0 alpha0 ! deg\n0 C_nalpha ! 1/rad\n0 T_f0 ! -\n0 T_p ! -\n");
-    CHECK_FALSE(model.read().profiles[0].is_unsteady());
+    CHECK_FALSE(model.read().airfoils[0].is_unsteady());
 }
 
 // Public models are not part of these sources: CARDAN_MODELS names a folder that holds their repositories. Their files
 // were made by AirfoilPrep, which finds angles and slopes in its own way: alpha0 is the zero of the table, alpha1 and
 // alpha2 are where f = 0.7.
-TEST_CASE("aerodyn profiles: polars of the IEA 22 MW and 3.4 MW machines against what their files say",
+TEST_CASE("aerodyn airfoils: polars of the IEA 22 MW and 3.4 MW machines against what their files say",
           "[discrete][.models]") {
     const char* const models = std::getenv("CARDAN_MODELS");
     if (models == nullptr) return;
@@ -240,11 +240,11 @@ TEST_CASE("aerodyn profiles: polars of the IEA 22 MW and 3.4 MW machines against
             if (flow.least_drag > 0.05) continue;
             ++thin;
             CHECK(flow.slope == Approx(slope).epsilon(0.1));
-            const UnsteadyProfile profile(polar, flow);
+            const UnsteadyAirfoil airfoil(polar, flow);
             // f changes by 0.08 there for 5 % of the slope, and by 0.04 within an interval of the tables.
             const double margin = 0.04 + 1.6 * std::abs(flow.slope / slope - 1);
             for (const char* stall : {"alpha1", "alpha2"})
-                CHECK(profile.separation(file.number(stall) * units::degree).f == Approx(0.7).margin(margin));
+                CHECK(airfoil.separation(file.number(stall) * units::degree).f == Approx(0.7).margin(margin));
         }
     CHECK(compared == 86);
     CHECK(thin == 76);
@@ -252,9 +252,9 @@ TEST_CASE("aerodyn profiles: polars of the IEA 22 MW and 3.4 MW machines against
 
 // OpenFAST ran these states with UA_Mod = 4 and loads in the plane of the rotor (BEM_Mod = 2, before that WakeMod =
 // 12), where the rate of a section about the radius has no part of the rotor's speed (SetInputsForBEMT() of
-// AeroDyn.f90): its profiles are steady then. Here they see Omega sin(cone + slope) about the bent blade, and lose lift
+// AeroDyn.f90): its airfoils are steady then. Here they see Omega sin(cone + slope) about the bent blade, and lose lift
 // by it.
-TEST_CASE("aerodyn profiles: IEA 22 MW rotor with and without lags against OpenFAST", "[discrete][.models]") {
+TEST_CASE("aerodyn airfoils: IEA 22 MW rotor with and without lags against OpenFAST", "[discrete][.models]") {
     const std::optional<Iea22Rotor> rotor = iea22_rotor();
     if (!rotor) return;
     const AeroDynFile& file = rotor->air;
@@ -273,7 +273,7 @@ TEST_CASE("aerodyn profiles: IEA 22 MW rotor with and without lags against OpenF
         const MachineAir air(machine, file.blade, {.speed = at("wind"), .density = file.density}, file.options);
         const IeaState steady = iea_state(machine, air, at("rotor_speed") * units::rpm),
                        lagging =
-                           iea_state(machine, air.lagging({.profiles = file.profiles}), at("rotor_speed") * units::rpm);
+                           iea_state(machine, air.lagging({.airfoils = file.airfoils}), at("rotor_speed") * units::rpm);
         CAPTURE(at("wind"));
         CHECK(steady.power == Approx(at("power")).epsilon(0.01));
         CHECK(steady.thrust == Approx(at("thrust")).epsilon(0.003));
@@ -284,4 +284,4 @@ TEST_CASE("aerodyn profiles: IEA 22 MW rotor with and without lags against OpenF
     }
 }
 
-}  // namespace cardan::testing::aerodyn_profile_tests
+}  // namespace cardan::testing::aerodyn_airfoil_tests

@@ -1,5 +1,5 @@
 /// @file
-/// A profile whose flow lags behind its motion: four states for the wake's shed vorticity, the pressure and the point
+/// An airfoil whose flow lags behind its motion: four states for the wake's shed vorticity, the pressure and the point
 /// of separation [M. H. Hansen, M. Gaunaa, H. Aa. Madsen, A Beddoes-Leishman type dynamic stall model in state-space
 /// and indicial formulations, Riso-R-1354, 2004], or the last of them alone [S. Oye, Dynamic stall simulated as time
 /// lag of separation, Fourth IEA Symposium on the Aerodynamics of Wind Turbines, 1991].
@@ -23,22 +23,22 @@ struct AttachedFlow {
 };
 
 /// Model of unsteady airfoil aerodynamics.
-enum class ProfileModel : std::uint8_t {
-    four_states,  ///< all of it [Hansen, Gaunaa and Madsen]
-    separation    ///< the point of separation [Oye]: for stall; attached flow does not lag, so that flutter comes early
+enum class UnsteadyAirfoilModel : std::uint8_t {
+    beddoes_leishman,  ///< all of it [Hansen, Gaunaa and Madsen]
+    oye  ///< the point of separation [Oye]: for stall; attached flow does not lag, so that flutter comes early
 };
 
 /// Constants of a thin airfoil, indicial response by two exponentials; lags in half chords travelled.
-struct ProfileLags {
+struct UnsteadyAirfoilConstants {
     double A1 = 0.3, A2 = 0.7, b1 = 0.14, b2 = 0.53;
     double pressure = 1.7, boundary_layer = 3.0;
-    ProfileModel model = ProfileModel::four_states;
+    UnsteadyAirfoilModel model = UnsteadyAirfoilModel::beddoes_leishman;
 };
 /// Oye's model has a single lag, usually of 6 half chords.
-inline constexpr ProfileLags oye_lags{.boundary_layer = 6, .model = ProfileModel::separation};
+inline constexpr UnsteadyAirfoilConstants oye_lags{.boundary_layer = 6, .model = UnsteadyAirfoilModel::oye};
 
 /// Motion of a section through the air, at its aerodynamic centre, a quarter of the chord behind the leading edge.
-struct ProfileMotion {
+struct AirfoilMotion {
     double attack;  ///< rad
     double speed;   ///< of the air, m/s
     double rate;    ///< of the section about its span, nose up, rad/s
@@ -57,12 +57,12 @@ struct ProfileMotion {
 ///           + [c_d(alpha_E) - least drag] [(sqrt f(alpha_E) - sqrt x4) / 2 - (f(alpha_E) - x4) / 4],
 ///     c_m = c_m(alpha_E) - pi/2 T rate.
 ///
-/// With ProfileModel::separation alpha_E = alpha_F = alpha_34, the terms with the rate are not there, and c_d is that
+/// With UnsteadyAirfoilModel::oye alpha_E = alpha_F = alpha_34, the terms with the rate are not there, and c_d is that
 /// of the table: x1 to x3 stay zero and are no states.
 ///
 /// The speed is taken as constant in the lags. Beyond 40 degrees of attack the coefficients go over to those of the
 /// table, which they are from 45 degrees on (by a cosine; a choice as in AeroDyn).
-class UnsteadyProfile {
+class UnsteadyAirfoil {
 public:
     enum State : std::uint8_t { wake_1, wake_2, lagging_lift, separation_point, states };
     using States = Eigen::Matrix<double, states, 1>;
@@ -71,15 +71,15 @@ public:
     };
 
     /// f from Kirchhoff's flow, c_l = slope (alpha - zero_lift) [(1 + sqrt f) / 2]^2, at the points of the table,
-    /// linear in between; zero beyond its first minimum below one half outside of `lower` ... `upper`. A profile
+    /// linear in between; zero beyond its first minimum below one half outside of `lower` ... `upper`. An airfoil
     /// without slope (a cylinder) keeps its table's coefficients.
     /// @throws InputError for values that are not finite, a slope or a lag that is negative, `lower` above `upper`
-    UnsteadyProfile(const Polar& polar, const AttachedFlow& flow, const ProfileLags& lags = {});
+    UnsteadyAirfoil(const Polar& polar, const AttachedFlow& flow, const UnsteadyAirfoilConstants& lags = {});
 
     /// States at rest.
-    States steady(const ProfileMotion& motion) const;
-    States rates(const States& x, const ProfileMotion& motion) const;
-    Coefficients coefficients(const States& x, const ProfileMotion& motion) const;
+    States steady(const AirfoilMotion& motion) const;
+    States rates(const States& x, const AirfoilMotion& motion) const;
+    Coefficients coefficients(const States& x, const AirfoilMotion& motion) const;
 
     /// Derivatives of rates and coefficients (rows).
     struct Slopes {
@@ -87,7 +87,7 @@ public:
         Eigen::Matrix<double, states, columns> rates;
         Eigen::Matrix<double, 3, columns> coefficients;
     };
-    Slopes slopes(const States& x, const ProfileMotion& motion) const;
+    Slopes slopes(const States& x, const AirfoilMotion& motion) const;
 
     /// Point of separation, from 0 at the leading to 1 at the trailing edge, and the lift of the separated flow.
     struct Separation {
@@ -99,11 +99,11 @@ public:
     /// Number of states: the last ones of State.
     int own_states() const { return follows_separation_alone() ? 1 : int{states}; }
     const AttachedFlow& flow() const { return flow_; }
-    const ProfileLags& lags() const { return lags_; }
+    const UnsteadyAirfoilConstants& lags() const { return lags_; }
     const Polar& polar() const { return polar_; }
 
 private:
-    bool follows_separation_alone() const { return lags_.model == ProfileModel::separation; }
+    bool follows_separation_alone() const { return lags_.model == UnsteadyAirfoilModel::oye; }
     template <class S>
     struct Flow;
     template <class S>
@@ -118,7 +118,7 @@ private:
     Polar polar_;
     Polar curves_;  // f in the place of the lift, that of the separated flow in the place of the drag
     AttachedFlow flow_;
-    ProfileLags lags_;
+    UnsteadyAirfoilConstants lags_;
 };
 
 }  // namespace cardan

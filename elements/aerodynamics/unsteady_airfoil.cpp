@@ -1,4 +1,4 @@
-#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "elements/aerodynamics/unsteady_airfoil.hpp"
 
 #include "elements/aerodynamics/detail/balance.hpp"
 #include "mbs/base/entry.hpp"
@@ -55,8 +55,8 @@ Polar separated(const Polar& polar, const AttachedFlow& flow) {
     return {polar.name(), table.angles, std::move(f), std::move(lift), table.moment};
 }
 
-void check(const Polar& polar, const AttachedFlow& flow, const ProfileLags& lags) {
-    const std::string here = "unsteady profile " + polar.name();
+void check(const Polar& polar, const AttachedFlow& flow, const UnsteadyAirfoilConstants& lags) {
+    const std::string here = "unsteady airfoil " + polar.name();
     for (const auto& [name, value] : {std::pair("angle without lift [rad]", flow.zero_lift),
                                       {"angle at which the flow separates, upper [rad]", flow.upper},
                                       {"angle at which the flow separates, lower [rad]", flow.lower},
@@ -90,22 +90,22 @@ S share_of(const S& attack) {
 
 // Variables of the model: the states, then those of the motion.
 template <class S>
-struct UnsteadyProfile::Values {
+struct UnsteadyAirfoil::Values {
     std::array<S, states> x;
     S attack, speed, rate;
     double chord;
 };
 
 template <class S>
-struct UnsteadyProfile::Flow {
+struct UnsteadyAirfoil::Flow {
     S T, attack_34, effective, lift_34;  // lift_34: pi T rate
     S attached;                          // lift of the attached flow
 };
 
-UnsteadyProfile::UnsteadyProfile(const Polar& polar, const AttachedFlow& flow, const ProfileLags& lags)
+UnsteadyAirfoil::UnsteadyAirfoil(const Polar& polar, const AttachedFlow& flow, const UnsteadyAirfoilConstants& lags)
     : polar_(polar), curves_((check(polar, flow, lags), separated(polar, flow))), flow_(flow), lags_(lags) {}
 
-UnsteadyProfile::Separation UnsteadyProfile::separation(double attack) const {
+UnsteadyAirfoil::Separation UnsteadyAirfoil::separation(double attack) const {
     const Polar::Point at = curves_.at(attack);
     return {at.lift, at.drag, at.lift_slope, at.drag_slope};
 }
@@ -131,7 +131,7 @@ S root(const S& f) {
 }  // namespace
 
 template <class S>
-UnsteadyProfile::Flow<S> UnsteadyProfile::flow_at(const Values<S>& at) const {
+UnsteadyAirfoil::Flow<S> UnsteadyAirfoil::flow_at(const Values<S>& at) const {
     using std::atan2, std::cos, std::sin;
     Flow<S> out{};
     out.T = limited<S>(at.chord / 2 / at.speed, least_lag, largest_lag);
@@ -144,7 +144,7 @@ UnsteadyProfile::Flow<S> UnsteadyProfile::flow_at(const Values<S>& at) const {
 }
 
 template <class S>
-std::array<S, UnsteadyProfile::states> UnsteadyProfile::rates_of(const Values<S>& at) const {
+std::array<S, UnsteadyAirfoil::states> UnsteadyAirfoil::rates_of(const Values<S>& at) const {
     const Flow<S> flow = flow_at(at);
     std::array<S, states> out{};
     S lagging = flow.attack_34;
@@ -161,7 +161,7 @@ std::array<S, UnsteadyProfile::states> UnsteadyProfile::rates_of(const Values<S>
 }
 
 template <class S>
-std::array<S, 3> UnsteadyProfile::coefficients_of(const Values<S>& at) const {
+std::array<S, 3> UnsteadyAirfoil::coefficients_of(const Values<S>& at) const {
     const Flow<S> flow = flow_at(at);
     const Separation here = separation(value_of(flow.effective));
     const Polar::Point table = polar_.at(value_of(flow.effective));
@@ -188,7 +188,7 @@ std::array<S, 3> UnsteadyProfile::coefficients_of(const Values<S>& at) const {
     return out;
 }
 
-UnsteadyProfile::States UnsteadyProfile::steady(const ProfileMotion& motion) const {
+UnsteadyAirfoil::States UnsteadyAirfoil::steady(const AirfoilMotion& motion) const {
     const Flow<double> flow = flow_at<double>({{}, motion.attack, motion.speed, motion.rate, motion.chord});
     if (follows_separation_alone()) return {0, 0, 0, separation(flow.attack_34).f};
     const double effective = flow.attack_34, lift = flow_.slope * (effective - flow_.zero_lift) + flow.lift_34,
@@ -196,13 +196,13 @@ UnsteadyProfile::States UnsteadyProfile::steady(const ProfileMotion& motion) con
     return {lags_.A1 * effective, lags_.A2 * effective, lift, separation(lagging).f};
 }
 
-UnsteadyProfile::States UnsteadyProfile::rates(const States& x, const ProfileMotion& motion) const {
+UnsteadyAirfoil::States UnsteadyAirfoil::rates(const States& x, const AirfoilMotion& motion) const {
     const auto out =
         rates_of<double>({{x(0), x(1), x(2), x(3)}, motion.attack, motion.speed, motion.rate, motion.chord});
     return States(out.data());
 }
 
-UnsteadyProfile::Coefficients UnsteadyProfile::coefficients(const States& x, const ProfileMotion& motion) const {
+UnsteadyAirfoil::Coefficients UnsteadyAirfoil::coefficients(const States& x, const AirfoilMotion& motion) const {
     if (!is_unsteady()) {
         const Polar::Point table = polar_.at(motion.attack);
         return {table.lift, table.drag, table.moment};
@@ -212,7 +212,7 @@ UnsteadyProfile::Coefficients UnsteadyProfile::coefficients(const States& x, con
     return {out[0], out[1], out[2]};
 }
 
-UnsteadyProfile::Slopes UnsteadyProfile::slopes(const States& x, const ProfileMotion& motion) const {
+UnsteadyAirfoil::Slopes UnsteadyAirfoil::slopes(const States& x, const AirfoilMotion& motion) const {
     using Variable = Dual<Slopes::columns>;
     Values<Variable> at{.x = {},
                         .attack = Variable::variable(motion.attack, Slopes::attack),
