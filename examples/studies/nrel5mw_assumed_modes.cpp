@@ -10,6 +10,7 @@
 #include "examples/studies/nrel5mw_assumed_modes/functions.hpp"
 #include "examples/studies/nrel5mw_assumed_modes/platform_case.hpp"
 #include "examples/studies/nrel5mw_assumed_modes/shapes.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/program.hpp"
 #include "solvers/pictures/stack.hpp"
@@ -224,49 +225,46 @@ void print_signal(const std::string& name, const Signal& y, double unit) {
     std::cout << "\n";
 }
 
-void print_reference(const ReferenceSignal& r) {
+void print_reference(const platform::ReferenceSignal& r) {
     std::cout << "  " << std::left << std::setw(26) << "reference" << std::right << std::defaultfloat
               << std::setprecision(4);
     for (double value : {r.mean, r.max, r.min}) std::cout << std::setw(10) << value;
-    for (std::size_t k = 1; k <= 5; ++k) {
-        const auto known =
-            std::find_if(r.harmonics.begin(), r.harmonics.end(), [&](const ReferenceHarmonic& h) { return h.k == k; });
-        std::string phase;
-        if (known != r.harmonics.end() && std::isfinite(known->phase)) phase = text("(", known->phase, ")");
-        std::cout << std::setw(10) << (known != r.harmonics.end() ? text(known->amplitude) : "") << std::setw(9)
-                  << phase;
+    for (int k = 1; k <= 5; ++k) {
+        const platform::ReferenceHarmonic* known = r.harmonic(k);
+        const bool has_phase = known && std::isfinite(known->phase);
+        std::cout << std::setw(10) << (known ? text(known->amplitude) : "") << std::setw(9)
+                  << (has_phase ? text("(", known->phase, ")") : "");
     }
     std::cout << "\n";
 }
 
-void print_platform(const char* title, const std::vector<PlatformRun>& runs, const Reference& reference) {
+void print_platform(const char* title, const std::vector<PlatformRun>& runs, const platform::ReferenceCase& reference) {
     std::cout << "\n" << title << "\n" << std::left << std::setw(28) << "" << std::right;
     for (const char* head : {"mean", "max", "min"}) std::cout << std::setw(10) << head;
     for (int k = 1; k <= 5; ++k) std::cout << std::setw(10) << text("A", k) << std::setw(9) << "(phase)";
     std::cout << "\n";
-    for (std::size_t s = 0; s < signals; ++s) {
-        std::cout << reference.at(s).name << "\n";
-        print_reference(reference.at(s));
-        for (const PlatformRun& run : runs) print_signal(run.name, run.response.by_signal.at(s), reference.at(s).unit);
+    for (std::size_t s = 0; s < platform::signals; ++s) {
+        const platform::SignalName& signal = platform::signal_names.at(s);
+        std::cout << signal.name << "\n";
+        print_reference(reference.by_signal.at(s));
+        for (const PlatformRun& run : runs) print_signal(run.name, run.response.by_signal.at(s), signal.unit);
     }
 }
 
 // The largest error of mean values and of harmonics above 5 % of the largest one, of phases in degrees per 100 deg: 1 %
 // is 1 deg.
-double platform_error(const PlatformResponse& response, const Reference& reference) {
+double platform_error(const PlatformResponse& response, const platform::ReferenceCase& reference) {
     double worst = 0;
-    for (std::size_t s = 0; s < signals; ++s) {
-        const ReferenceSignal& r = reference.at(s);
+    for (std::size_t s = 0; s < platform::signals; ++s) {
+        const platform::ReferenceSignal& r = reference.by_signal.at(s);
         const Signal& y = response.by_signal.at(s);
-        double largest = 0;
-        for (const ReferenceHarmonic& h : r.harmonics) largest = std::max(largest, h.amplitude);
-        worst = std::max(worst, std::abs(y.mean / r.unit - r.mean) / std::max(std::abs(r.mean), largest));
-        for (const ReferenceHarmonic& h : r.harmonics) {
+        const double unit = platform::signal_names.at(s).unit, largest = r.largest_amplitude();
+        worst = std::max(worst, std::abs(y.mean / unit - r.mean) / std::max(std::abs(r.mean), largest));
+        for (const platform::ReferenceHarmonic& h : r.harmonics) {
             if (h.amplitude < 0.05 * largest) continue;
-            worst = std::max(worst, error(y.amplitude[h.k - 1] / r.unit, h.amplitude));
-            if (std::isfinite(h.phase))
-                worst = std::max(worst,
-                                 std::abs(std::remainder(y.phase[h.k - 1] * units::to_degrees - h.phase, 360)) / 100);
+            worst = std::max(worst, error(entry(y.amplitude, h.k - 1) / unit, h.amplitude));
+            const double phase = entry(y.phase, h.k - 1) * units::to_degrees;
+            if (std::isfinite(h.phase)) worst = std::max(worst, std::abs(std::remainder(phase - h.phase, 360)) / 100);
         }
     }
     return worst;
@@ -288,7 +286,8 @@ void draw_platform(const PlatformRun& with, const PlatformRun& without, const st
 }
 
 void write_platform(const std::vector<PlatformRun>& runs, const std::string& path) {
-    const std::array<const char*, signals> names{"tip flap[m]", "tip edge[m]", "root My[N m]", "root Mz[N m]"};
+    const std::array<const char*, platform::signals> names{"tip flap[m]", "tip edge[m]", "root My[N m]",
+                                                           "root Mz[N m]"};
     std::string rows = "time[s]";
     for (const PlatformRun& run : runs)
         for (const char* name : names) rows += "," + run.name + " " + name;
@@ -317,8 +316,9 @@ bool platform_part(const Arguments& a) {
             {"without derivatives", platform_response(blade, without)}};
     };
     const std::vector<PlatformRun> still = both(at_rest), moving = both(pitching);
-    print_platform("platform at rest", still, reference_at_rest());
-    print_platform("platform pitching", moving, reference_pitching());
+    const auto& [exact_still, exact_moving] = platform::reference_cases();
+    print_platform("platform at rest", still, exact_still);
+    print_platform("platform pitching", moving, exact_moving);
     PlatformCase heaving = at_rest, felt = at_rest;
     heaving.heave_rate = felt.heave_rate = 1;
     felt.derivatives = false;
@@ -329,8 +329,8 @@ bool platform_part(const Arguments& a) {
     std::cout << "\nwhat a steady heave of 1 m/s adds to A1 of v, m: with derivatives " << std::setprecision(2)
               << std::abs(first(platform_response(blade, heaving)) - rest) << ", without "
               << std::abs(first(platform_response(blade, felt)) - rest) << "\n\n";
-    const double worst = std::max(platform_error(still[0].response, reference_at_rest()),
-                                  platform_error(moving[0].response, reference_pitching()));
+    const double worst =
+        std::max(platform_error(still[0].response, exact_still), platform_error(moving[0].response, exact_moving));
     const bool good = judge("response on the platform", worst, 0.01);
     write_platform(moving, a.out + "_platform.csv");
     draw_platform(moving[0], moving[2], a.out + "_platform.svg");

@@ -11,6 +11,7 @@
 #include "examples/studies/motion_option.hpp"
 #include "examples/studies/nrel5mw_platform/files.hpp"
 #include "examples/studies/nrel5mw_platform/reference.hpp"
+#include "examples/studies/nrel5mw_platform/response.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/simulation.hpp"
 

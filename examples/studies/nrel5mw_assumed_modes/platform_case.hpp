@@ -3,6 +3,7 @@
 #pragma once
 
 #include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
+#include "examples/studies/machines/nrel5mw_platform_reference.hpp"
 #include "solvers/periodic/forced_response.hpp"
 
 #include <array>
@@ -13,16 +14,12 @@ namespace cardan::paper2018 {
 
 /// Signals: tip deflections w (downwind) and v (to the leading edge), m; moments of the hub on the blade at its root,
 /// My and Mz, N m.
-inline constexpr std::size_t signals = 4;
-struct Signal {
-    double mean = 0, max = 0, min = 0;
-    std::vector<double> amplitude, phase;  ///< of harmonic k = 1, 2 ...: amplitude cos(2 pi k t / T + phase); rad
-    std::vector<double> samples;           ///< of one period, both ends included
+struct Signal : platform::Harmonics {
+    std::vector<double> samples;  ///< of one period, both ends included
 };
 struct PlatformResponse {
     std::vector<double> time;  ///< s
-    std::array<Signal, signals> by_signal;
-    double remainder = 0;  ///< of the balance of harmonics, see solvers::ForcedResponse
+    std::array<Signal, platform::signals> by_signal;
 };
 
 struct PlatformCase {
@@ -38,20 +35,5 @@ PlatformResponse platform_response(const AssumedModesBlade& blade, const Platfor
 
 /// The blade with its first natural modes at 12.1 rpm for coordinates.
 AssumedModesBlade in_natural_modes(const AssumedModesBlade& blade, int count);
-
-/// Reference of docs/nrel5mw_platform.md, good to 0.05 % or 5e-5 m; in m and N m, phases in deg.
-struct ReferenceHarmonic {
-    std::size_t k;
-    double amplitude, phase;
-};
-struct ReferenceSignal {
-    std::string name;
-    double unit;  ///< of the table: 1 m, 1000 N m
-    double mean, max, min;
-    std::vector<ReferenceHarmonic> harmonics;
-};
-using Reference = std::array<ReferenceSignal, signals>;
-const Reference& reference_at_rest();
-const Reference& reference_pitching();
 
 }  // namespace cardan::paper2018

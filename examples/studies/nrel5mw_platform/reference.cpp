@@ -8,7 +8,6 @@
 #include <cmath>
 #include <iomanip>
 #include <iostream>
-#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -16,7 +15,6 @@ namespace cardan::platform {
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int highest = 5;  // harmonic of the references
 
 // What the reference is good for, and the goal: 0.5 % and 1 deg of every harmonic above 0.01 m. Smaller ones, and the
@@ -27,14 +25,8 @@ bool is_length(std::size_t signal) {
     return signal < 2;
 }
 
-double largest_amplitude(const ReferenceSignal& r) {
-    double largest = 0;
-    for (const ReferenceHarmonic& h : r.harmonics) largest = std::max(largest, h.amplitude);
-    return largest;
-}
-
 bool counts(const ReferenceSignal& r, const ReferenceHarmonic& h, bool length) {
-    return h.amplitude >= (length ? 0.01 : 0.01 * largest_amplitude(r));
+    return h.amplitude >= (length ? 0.01 : 0.01 * r.largest_amplitude());
 }
 
 // Error over what is allowed.
@@ -100,8 +92,7 @@ private:
     template <class Show>
     void each(const ReferenceSignal& r, Show&& show) const {
         for (int k = 1; k <= count_; ++k) {
-            const auto known = std::ranges::find(r.harmonics, k, &ReferenceHarmonic::k);
-            if (known != r.harmonics.end())
+            if (const ReferenceHarmonic* known = r.harmonic(k))
                 show(*known);
             else
                 std::cout << std::setw(21) << "";
@@ -128,41 +119,12 @@ double worst(const ReferenceSignal& r, const Harmonics& h, double unit, bool len
 
 }  // namespace
 
-// Converged by a method that shares nothing with the joint chain; good to 0.05 % or 5e-5 m.
-const std::vector<ReferenceCase>& reference_cases() {
-    static const std::vector<ReferenceCase> cases{
-        {"none",
-         1,
-         {{{0.4004, 0.4892, 0.3101, {{1, 0.08952, -112.9}, {2, 0.00158, unknown}}},
-           {0.05080, 0.4951, -0.3934, {{1, 0.4443, -91.21}, {2, 0.00190, unknown}}},
-           {1084, 1217, 950.6, {{1, 133.2, 179.9}}},
-           {-5.71, 3614, -3626, {{1, 3620, 89.56}}}}}},
-        {"pitch",
-         2,
-         {{{0.3985,
-            1.309,
-            -0.5369,
-            {{1, 0.6380, 89.69}, {2, 0.08881, -114.3}, {3, 0.4941, 89.85}, {5, 0.0112, unknown}}},
-           {0.05100, 0.5349, -0.4676, {{1, 0.05079, 74.65}, {2, 0.4369, -91.22}, {3, 0.04199, 106.1}}},
-           {1078, 3348, -1257, {{1, 1987, 89.93}, {2, 138.1, 179.9}, {3, 1180, 89.76}}},
-           {-5.89, 3721, -3714, {{1, 107.7, -179.8}, {2, 3559, 89.56}, {3, 100.9, -9.3}}}}}}};
-    return cases;
-}
-
-const std::array<SignalName, signals>& signal_names() {
-    static const std::array<SignalName, signals> names{{{"blade 1 tip flap deflection", "tip flap w, m", 1},
-                                                        {"blade 1 tip edge deflection", "tip edge v, m", 1},
-                                                        {"blade 1 root My", "root My, kN m", 1000},
-                                                        {"blade 1 root Mz", "root Mz, kN m", 1000}}};
-    return names;
-}
-
 double print_signals(const solvers::History& period, int count, const ReferenceCase* reference) {
     const Table table(count);
     table.heading();
     double used = 0;
     for (std::size_t i = 0; i < signals; ++i) {
-        const SignalName& signal = signal_names().at(i);
+        const SignalName& signal = signal_names.at(i);
         const Harmonics h = harmonics(period[signal.channel], std::max(count, highest));
         table.computed(signal.name, h, signal.unit);
         if (!reference) continue;

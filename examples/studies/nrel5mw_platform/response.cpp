@@ -84,23 +84,4 @@ Response periodic_response(solvers::Integrator& integrator, solvers::Recorder& r
     return response;
 }
 
-Harmonics harmonics(const std::vector<double>& samples, int count) {
-    const std::size_t n = samples.size() - 1;
-    const auto mean_with = [&](auto&& weight) {
-        double sum = 0;
-        for (std::size_t i = 0; i < n; ++i) sum += samples[i] * weight(2 * pi * static_cast<double>(i));
-        return sum / static_cast<double>(n);
-    };
-    const auto [min, max] = std::ranges::minmax(samples);
-    Harmonics h{mean_with([](double) { return 1.0; }), max, min, {}, {}};
-    for (int k = 1; k <= count; ++k) {
-        const double turn = k / static_cast<double>(n);
-        const double c = 2 * mean_with([&](double angle) { return std::cos(angle * turn); });
-        const double s = 2 * mean_with([&](double angle) { return std::sin(angle * turn); });
-        h.amplitude.push_back(std::hypot(c, s));
-        h.phase.push_back(std::atan2(-s, c));
-    }
-    return h;
-}
-
 }  // namespace cardan::platform

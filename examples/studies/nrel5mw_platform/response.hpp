@@ -38,12 +38,4 @@ struct Response {
 Response periodic_response(solvers::Integrator& integrator, solvers::Recorder& recorder, const ResponseOptions& options,
                            const solvers::RecordRow& row);
 
-/// A periodic signal y = mean + sum A_k cos(2 pi k t / T + phase_k).
-struct Harmonics {
-    double mean, max, min;
-    std::vector<double> amplitude, phase;  ///< of k = 1, 2 ...; phase in rad, -pi ... pi
-};
-/// @param samples  of one period from time zero of the phases on, equally spaced, the last one a period after the first
-Harmonics harmonics(const std::vector<double>& samples, int count);
-
 }  // namespace cardan::platform
