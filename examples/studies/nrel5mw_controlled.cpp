@@ -9,11 +9,7 @@
 // a sag of the voltage. Reference: J. Jonkman, S. Butterfield, W. Musial, G. Scott, NREL/TP-500-38060, 2009, section 7.
 // Checked: the energy balance; steady operation after each step; the response against the eigenvalue, 1 % of the
 // frequency and 0.01 of the damping ratio.
-#include "examples/studies/nrel5mw_controlled/damper.hpp"
-#include "examples/studies/nrel5mw_controlled/diagram.hpp"
-#include "examples/studies/nrel5mw_controlled/loop.hpp"
-#include "examples/studies/nrel5mw_controlled/sag.hpp"
-#include "examples/studies/nrel5mw_controlled/steps.hpp"
+#include "examples/studies/nrel5mw_controlled/studies.hpp"
 #include "programs/shared/program.hpp"
 
 using namespace cardan;

@@ -8,9 +8,7 @@
 // Reference: pitch at 0.034 Hz (J. Jonkman, docs/nrel5mw_floating.md). Checked: the energy balance; periods of the
 // decays within 1 % of the eigenvalues, if enough cycles were measured.
 #include "examples/studies/motion_option.hpp"
-#include "examples/studies/nrel5mw_floating/decay.hpp"
-#include "examples/studies/nrel5mw_floating/free_modes.hpp"
-#include "examples/studies/nrel5mw_floating/motion.hpp"
+#include "examples/studies/nrel5mw_floating/studies.hpp"
 #include "programs/shared/program.hpp"
 #include "programs/shared/simulation.hpp"
 

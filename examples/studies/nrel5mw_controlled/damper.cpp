@@ -1,7 +1,5 @@
-#include "examples/studies/nrel5mw_controlled/damper.hpp"
-
-#include "examples/studies/nrel5mw_controlled/loop.hpp"
 #include "examples/studies/nrel5mw_controlled/simulate.hpp"
+#include "examples/studies/nrel5mw_controlled/studies.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/program.hpp"

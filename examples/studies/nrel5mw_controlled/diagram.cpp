@@ -1,7 +1,7 @@
-#include "examples/studies/nrel5mw_controlled/diagram.hpp"
-
-#include "programs/shared/program.hpp"
 #include "solvers/campbell/diagram.hpp"
+
+#include "examples/studies/nrel5mw_controlled/studies.hpp"
+#include "programs/shared/program.hpp"
 #include "solvers/pictures/campbell.hpp"
 
 #include <cmath>

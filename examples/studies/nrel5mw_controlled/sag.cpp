@@ -1,5 +1,4 @@
-#include "examples/studies/nrel5mw_controlled/sag.hpp"
-
+#include "examples/studies/nrel5mw_controlled/studies.hpp"
 #include "mbs/base/error.hpp"
 #include "programs/shared/simulation_run.hpp"
 #include "turbines/electric/nrel5mw_generator.hpp"

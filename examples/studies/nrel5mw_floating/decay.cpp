@@ -1,5 +1,4 @@
-#include "examples/studies/nrel5mw_floating/decay.hpp"
-
+#include "examples/studies/nrel5mw_floating/studies.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/named_values.hpp"
 #include "programs/shared/simulation.hpp"
@@ -78,6 +77,43 @@ std::vector<std::size_t> lobes(const std::vector<double>& t, const std::vector<d
         }
     }
     return found;
+}
+
+// Frequency and damping of a decaying oscillation.
+struct MeasuredDecay {
+    double damped_hz = 0, damping_ratio = 0;
+    int half_cycles = 0;                  // that were used; fewer than two: nothing was measured
+    std::vector<double> times, extremes;  // s, units of the channel
+};
+
+// The largest excursion of every lobe between two crossings of `centre`, sharpened by a parabola. From one lobe to the
+// next the range falls by the same factor; its logarithm over time (logarithmic decrement) and the times themselves
+// are fitted by straight lines. The first lobe, where the test begins, is left out, and lobes below a twentieth of it.
+// @param shortest  s; crossings that follow sooner are ripple
+MeasuredDecay measure_decay(const std::vector<double>& time, const std::vector<double>& values, double centre,
+                            double shortest) {
+    MeasuredDecay result;
+    if (time.size() < 3) return result;
+    for (const std::size_t i : lobes(time, values, centre, shortest)) {
+        const auto [t, y] = sharpened(time, values, i);
+        result.times.push_back(t);
+        result.extremes.push_back(y);
+    }
+    std::vector<double> number, t, middle, logarithm;
+    for (std::size_t i = 1; i + 1 < result.extremes.size(); ++i) {
+        const double range = std::abs(result.extremes[i + 1] - result.extremes[i]);
+        if (range < std::abs(result.extremes[1] - result.extremes[0]) / 20) break;
+        middle.push_back((result.times[i] + result.times[i + 1]) / 2);
+        logarithm.push_back(std::log(range));
+        number.push_back(static_cast<double>(i));
+        t.push_back(result.times[i]);
+    }
+    result.half_cycles = static_cast<int>(number.size());
+    if (result.half_cycles < 2) return result;
+    const double omega = pi / slope(number, t), delta = -slope(middle, logarithm);
+    result.damped_hz = omega / (2 * pi);
+    result.damping_ratio = delta / std::hypot(delta, omega);
+    return result;
 }
 
 struct Linear {
@@ -217,32 +253,6 @@ void print_row(const Release& release, const DecayOutcome& outcome, const Linear
 }
 
 }  // namespace
-
-MeasuredDecay measure_decay(const std::vector<double>& time, const std::vector<double>& values, double centre,
-                            double shortest) {
-    MeasuredDecay result;
-    if (time.size() < 3) return result;
-    for (const std::size_t i : lobes(time, values, centre, shortest)) {
-        const auto [t, y] = sharpened(time, values, i);
-        result.times.push_back(t);
-        result.extremes.push_back(y);
-    }
-    std::vector<double> number, t, middle, logarithm;
-    for (std::size_t i = 1; i + 1 < result.extremes.size(); ++i) {
-        const double range = std::abs(result.extremes[i + 1] - result.extremes[i]);
-        if (range < std::abs(result.extremes[1] - result.extremes[0]) / 20) break;
-        middle.push_back((result.times[i] + result.times[i + 1]) / 2);
-        logarithm.push_back(std::log(range));
-        number.push_back(static_cast<double>(i));
-        t.push_back(result.times[i]);
-    }
-    result.half_cycles = static_cast<int>(number.size());
-    if (result.half_cycles < 2) return result;
-    const double omega = pi / slope(number, t), delta = -slope(middle, logarithm);
-    result.damped_hz = omega / (2 * pi);
-    result.damping_ratio = delta / std::hypot(delta, omega);
-    return result;
-}
 
 int decay(const MachineOptions& machine, const DecayOptions& options, const std::string& prefix) {
     const std::vector<Release> list = releases(options.from);

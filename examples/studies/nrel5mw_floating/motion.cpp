@@ -1,7 +1,6 @@
-#include "examples/studies/nrel5mw_floating/motion.hpp"
-
 #include "examples/studies/motion_option.hpp"
 #include "examples/studies/nrel5mw_floating/lines.hpp"
+#include "examples/studies/nrel5mw_floating/studies.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/simulation.hpp"
 #include "turbines/model/channels.hpp"
