@@ -10,9 +10,8 @@
 // 211-224, whose blade turns in still air, and flutters at about twice the speed of its machine.
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "programs/cardan/air.hpp"
 #include "programs/cardan/commands.hpp"
-#include "programs/cardan/operation.hpp"
+#include "programs/cardan/options.hpp"
 #include "programs/shared/campbell_program.hpp"
 #include "solvers/campbell/stability_limits.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"

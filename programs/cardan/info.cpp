@@ -7,7 +7,7 @@
 #include "mbs/base/units.hpp"
 #include "mbs/model/summary.hpp"
 #include "programs/cardan/commands.hpp"
-#include "programs/cardan/operation.hpp"
+#include "programs/cardan/options.hpp"
 #include "programs/shared/history_state.hpp"
 #include "programs/shared/program.hpp"
 #include "solvers/hdf5/file.hpp"

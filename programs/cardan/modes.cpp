@@ -5,7 +5,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/cardan/commands.hpp"
-#include "programs/cardan/operation.hpp"
+#include "programs/cardan/options.hpp"
 #include "programs/shared/campbell_program.hpp"
 #include "turbines/analysis/campbell.hpp"
 #include "turbines/analysis/part_modes.hpp"

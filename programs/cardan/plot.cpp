@@ -6,7 +6,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "programs/cardan/commands.hpp"
-#include "programs/cardan/operation.hpp"
+#include "programs/cardan/options.hpp"
 #include "programs/cardan/plot_histories.hpp"
 #include "programs/cardan/wind_curves.hpp"
 #include "programs/shared/program.hpp"

@@ -7,7 +7,7 @@
 // elsewhere, to see their motion decay. What drives the rotor is the air, steady or over time, or a given torque.
 // Checks: the energy balance, by the integration and by the recorded powers of generator, air and rotor torque.
 #include "programs/cardan/commands.hpp"
-#include "programs/cardan/operation.hpp"
+#include "programs/cardan/options.hpp"
 #include "programs/cardan/simulate_options.hpp"
 
 #include <algorithm>

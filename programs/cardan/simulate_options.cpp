@@ -2,7 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "programs/cardan/operation.hpp"
+#include "programs/cardan/options.hpp"
 #include "programs/shared/named_values.hpp"
 #include "turbines/analysis/in_unit.hpp"
 

@@ -2,7 +2,7 @@
 /// Options of `cardan simulate`, and what they mean to the library.
 #pragma once
 
-#include "programs/cardan/air.hpp"
+#include "programs/cardan/options.hpp"
 #include "programs/shared/channel_choice.hpp"
 #include "programs/shared/machine_file.hpp"
 #include "programs/shared/simulation_run.hpp"

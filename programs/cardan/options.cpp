@@ -1,12 +1,16 @@
-#include "programs/cardan/wind_options.hpp"
+#include "programs/cardan/options.hpp"
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/program.hpp"
 #include "programs/shared/remarks.hpp"
 #include "programs/shared/words.hpp"
+#include "turbines/analysis/in_unit.hpp"
 #include "turbines/analysis/rising.hpp"
 #include "turbines/machine/read_machine.hpp"
+
+#include <cmath>
+#include <filesystem>
 
 namespace cardan::program {
 
@@ -15,6 +19,61 @@ namespace {
 constexpr auto wind_format = "numbers and FIRST:LAST:STEP separated by commas, m/s";
 
 }  // namespace
+
+std::vector<Option> add_profile_options(CommandLine& app, AirArguments& a) {
+    return {app.add_option("--air", a.file,
+                           "profiles: the main file of AeroDyn 15, or windIO (default: those of the model)")
+                .type_name("FILE"),
+            app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)")
+                .positive()};
+}
+
+std::vector<Option> add_air_options(CommandLine& app, AirArguments& a) {
+    std::vector<Option> all = add_profile_options(app, a);
+    all.push_back(app.add_option("--shear", a.shear, "exponent of the wind's profile over the height").finite());
+    all.push_back(
+        app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left")
+            .finite());
+    all.push_back(app.add_option("--upflow", a.upflow, "of the wind, deg").finite());
+    all.push_back(app.add_flag("--no-tower", a.no_tower,
+                               "without the tower's influence on the wind, and the air's drag on tower and nacelle"));
+    all.push_back(app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake"));
+    return all;
+}
+
+Option add_wake_option(CommandLine& app, AirArguments& a) {
+    return app
+        .add_option("--wake", a.wake,
+                    "quasi-steady: induced velocities in equilibrium with the loads; none: there are none")
+        .one_of({"quasi-steady", "none"});
+}
+
+turbines::AirSettings settings_of(const AirArguments& a) {
+    return {.shear_exponent = a.shear,
+            .propagation_direction = a.direction * units::degree,
+            .upflow = a.upflow * units::degree,
+            .density = a.density,
+            .skewed_wake = !a.no_skew,
+            .tower_nacelle = !a.no_tower,
+            .induction = a.wake != "none"};
+}
+
+void take_air(turbines::Machine& machine, const AirArguments& arguments, MachineOptions& options) {
+    if (!arguments.file.empty()) machine.air = turbines::read_air(arguments.file, machine);
+    if (!machine.air)
+        throw InputError("--air", "value", text("none, and ", machine.no_air),
+                         "FILE, the main file of AeroDyn, or windIO");
+    machine.no_air.clear();
+    print_notes(machine.air->notes, options, "notes on the air");
+}
+
+turbines::WindSource wind_source(const std::string& given) {
+    if (given == "none") return turbines::WindSource::none();
+    if (std::filesystem::exists(given)) return std::filesystem::path(given);
+    const double speed = number("--wind", given, given, wind_file_format);
+    require_not_negative("--wind", "value [m/s]", speed);
+    return speed;
+}
 
 Option add_wind_options(CommandLine& app, WindArguments& a) {
     Option wind = app.add_option("--wind", a.speeds, std::string("wind speeds at the hub's height, ") + wind_format);
@@ -100,6 +159,37 @@ turbines::VibrationSettings vibration_of(const VibrationArguments& a) {
 void show_progress(const char* what, int done, int total) {
     if (done == 1) keep_from_here();
     progress(text(what, " ", done, " of ", total, done == total ? "\n" : ""));
+}
+
+std::optional<double> asked_speed(const std::optional<double>& asked_rpm) {
+    if (!asked_rpm) return std::nullopt;
+    if (!std::isfinite(*asked_rpm)) throw InputError("--rpm", "value", *asked_rpm, "finite");
+    return *asked_rpm * units::rpm;
+}
+
+double rotor_speed(const std::optional<double>& asked_rpm, const turbines::Machine& machine) {
+    return turbines::rotor_speed_of(asked_speed(asked_rpm), machine, "--rpm", remarks_printed(false));
+}
+
+void set_pitch(const turbines::Machine& machine, MachineOptions& options, double rotor_speed) {
+    if (options.pitch) return;
+    const double pitch = turbines::pitch_at_speed({}, machine, rotor_speed, remarks_printed(false));
+    options.pitch = turbines::in_unit(pitch, units::degree);
+}
+
+void add_like(CommandLine& app, std::string& file) {
+    app.add_option("--like", file,
+                   "result (.h5) of campbell or modes for a similar machine: modes have the names of those there that "
+                   "they are most like, at the rotor speeds that both have")
+        .type_name("BASE.h5");
+}
+
+std::string title_of(const solvers::Campbell& diagram) {
+    return diagram.remark.empty() ? diagram.machine : text(diagram.machine, ", ", diagram.remark);
+}
+
+std::string default_prefix(const std::string& machine, const char* what) {
+    return std::filesystem::path(machine).stem().string() + "_" + what;
 }
 
 }  // namespace cardan::program
