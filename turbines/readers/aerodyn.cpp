@@ -135,11 +135,7 @@ AeroNacelle read_nacelle(OpenFastFile& file) {
     nacelle.area = vector("NacArea");
     nacelle.drag = vector("NacCd");
     nacelle.centre = vector("NacDragAC");
-    try {
-        nacelle.check();
-    } catch (const InputError& error) {
-        file.fail("NacelleDrag", error.what());
-    }
+    file.checked("NacelleDrag", [&] { nacelle.check(); });
     return nacelle;
 }
 

@@ -127,18 +127,11 @@ BeamDynBlade read_beamdyn(const std::filesystem::path& path) {
     OpenFastFile blade = OpenFastFile::read(blade_path);
     read_stations(blade, data);
     BeamDynBlade out;
-    try {
-        out.beam.line = beam_line(matrix_blade_table("blade", data));
-    } catch (const InputError& error) {
-        file.fail("kp_total", error.what());
-    }
+    out.beam.line = file.checked("kp_total", [&] { return beam_line(matrix_blade_table("blade", data)); });
     out.beam.damping = damping(blade);
     if (file.flag("UsePitchAct")) {
-        out.pitch = {file.number("PitchK"), file.number("PitchC")};
-        if (!(out.pitch.stiffness > 0)) file.fail("PitchK", text("PitchK = ", out.pitch.stiffness, "; allowed: > 0"));
-        if (!(out.pitch.damping >= 0)) file.fail("PitchC", text("PitchC = ", out.pitch.damping, "; allowed: >= 0"));
-        out.pitch_inertia = file.number("PitchJ");
-        if (!(out.pitch_inertia >= 0)) file.fail("PitchJ", text("PitchJ = ", out.pitch_inertia, "; allowed: >= 0"));
+        out.pitch = {file.positive("PitchK"), file.not_negative("PitchC")};
+        out.pitch_inertia = file.not_negative("PitchJ");
     }
     for (OpenFastFile* each : {&file, &blade})
         for (FileNote& note : each->notes(ignored_by_beamdyn())) out.beam.notes.push_back(std::move(note));

@@ -55,16 +55,6 @@ public:
     }
 
 private:
-    double positive(const char* keyword) {
-        const double value = file_.number(keyword);
-        if (!(value > 0)) file_.fail(keyword, text(keyword, " = ", value, "; allowed: > 0"));
-        return value;
-    }
-    double not_negative(std::string_view keyword) {
-        const double value = file_.number(keyword);
-        if (!(value >= 0)) file_.fail(keyword, text(keyword, " = ", value, "; allowed: >= 0"));
-        return value;
-    }
     double angle(std::string_view keyword, double limit = 180) {
         const double value = file_.number(keyword);
         if (std::abs(value) > limit)
@@ -81,14 +71,14 @@ private:
 
     void read_gravity() {
         if (!file_.has("Gravity")) return;
-        out_.gravity = not_negative("Gravity");
+        out_.gravity = file_.not_negative("Gravity");
         if (out_.gravity == 0) file_.note("Gravity", "nothing has weight in this model");
     }
 
     void read_tower() {
         const double top = file_.number("TowerHt");
         if (!is_fast7(file_)) return set_tower(top, file_.number("TowerBsHt"), "TowerBsHt");
-        const double rigid = not_negative("TwrRBHt");
+        const double rigid = file_.not_negative("TwrRBHt");
         if (rigid > 0) file_.note("TwrRBHt", "the part of the tower that is rigid belongs to the ground here");
         set_tower(top, rigid - draft_of_platform(), "TwrRBHt");
     }
@@ -128,17 +118,17 @@ private:
 
     void read_nacelle() {
         NacelleDescription& n = d_.nacelle;
-        n.inertia.mass = not_negative("NacMass");
+        n.inertia.mass = file_.not_negative("NacMass");
         n.inertia.com = {file_.number("NacCMxn"), file_.number("NacCMyn"), file_.number("NacCMzn")};
         // Given about the yaw axis, kept about the mass centre.
-        const double about_axis = not_negative("NacYIner"),
+        const double about_axis = file_.not_negative("NacYIner"),
                      steiner = n.inertia.mass * n.inertia.com.head<2>().squaredNorm();
         if (about_axis < steiner)
             file_.fail("NacYIner", text("NacYIner = ", about_axis, "; allowed: at least ", steiner,
                                         ", mass of the nacelle times its distance from the yaw axis squared"));
         n.inertia.J(2, 2) = about_axis - steiner;
         n.inertia.reduced = true;
-        if (const double bearing = not_negative("YawBrMass"); bearing > 0) {
+        if (const double bearing = file_.not_negative("YawBrMass"); bearing > 0) {
             RigidInertia at_top;
             at_top.mass = bearing;
             n.inertia = n.inertia + at_top;
@@ -152,27 +142,27 @@ private:
 
     void read_drive_train() {
         DriveTrainDescription& t = d_.drive_train;
-        t.gear_ratio = positive("GBRatio");
-        t.generator_inertia = not_negative("GenIner");
+        t.gear_ratio = file_.positive("GBRatio");
+        t.generator_inertia = file_.not_negative("GenIner");
         t.high_speed_shaft = rigid_joint;
-        t.main_shaft = {not_negative("DTTorSpr"), not_negative("DTTorDmp")};
+        t.main_shaft = {file_.not_negative("DTTorSpr"), file_.not_negative("DTTorDmp")};
         if (file_.flag_or("GBRevers", false)) file_.note("GBRevers", "the generator turns as the rotor does here");
         if (!file_.flag("DrTrDOF"))
             t.main_shaft = rigid_joint;
         else
-            positive("DTTorSpr");
+            file_.positive("DTTorSpr");
         if (!file_.flag("GenDOF")) t.spin = CoordinateRole::driven;
         file_.left_out_unless("GBoxEff", 100, "losses of the gearbox: not part of the model");
     }
 
     void read_hub() {
-        d_.hub.radius = not_negative("HubRad");
+        d_.hub.radius = file_.not_negative("HubRad");
         RigidInertia& hub = d_.hub.inertia;
-        hub.mass = not_negative("HubMass");
+        hub.mass = file_.not_negative("HubMass");
         hub.com = {0, 0, file_.number("HubCM")};
         hub.reduced = true;
         if (d_.blades == 2) return read_hub_of_two_blades();
-        hub.J(2, 2) = not_negative("HubIner");
+        hub.J(2, 2) = file_.not_negative("HubIner");
         file_.note_unless("HubIner_Teeter", 0, "the rotor does not teeter");
     }
 
@@ -183,13 +173,13 @@ private:
         const bool has_both = file_.has("HubIner_Teeter");
         const char* const about_teeter = has_both ? "HubIner_Teeter" : "HubIner";
         hub.com.z() -= file_.number("UndSling");
-        const double steiner = hub.mass * hub.com.z() * hub.com.z(), given = not_negative(about_teeter);
+        const double steiner = hub.mass * hub.com.z() * hub.com.z(), given = file_.not_negative(about_teeter);
         if (given == 0 && steiner > 0) file_.note(about_teeter, "none is given: that of the hub's mass alone");
         if (given > 0 && given < steiner)
             file_.fail(about_teeter, text(about_teeter, " = ", given, "; allowed: at least ", steiner,
                                           ", mass of the hub times its distance from the teeter axis squared"));
         hub.J(1, 1) = std::max(given - steiner, 0.0) / std::pow(std::cos(angle("Delta3", 80)), 2);
-        hub.J(2, 2) = has_both ? not_negative("HubIner") : hub.J(1, 1);
+        hub.J(2, 2) = has_both ? file_.not_negative("HubIner") : hub.J(1, 1);
     }
 
     // Springs and dampers that act from rest on are linear; what acts beyond an angle is not part of the description.
@@ -205,10 +195,10 @@ private:
             file_.left_out("TeetMod", "a user's routine: no spring, no damper here");
         if (file_.integer("TeetMod", 0, 2) != 1) return;
         if (file_.number_or("TeetDmpP", 0) == 0)
-            teeter.bearing.damping = not_negative("TeetDmp");
+            teeter.bearing.damping = file_.not_negative("TeetDmp");
         else
             file_.left_out("TeetDmpP", "a damper that acts beyond an angle: not part of the description");
-        const double spring = not_negative("TeetSSSp");
+        const double spring = file_.not_negative("TeetSSSp");
         if (file_.number("TeetSStP") != 0)
             file_.left_out("TeetSStP", "a stop: its spring is not part of the description");
         else if (spring > 0)
@@ -218,7 +208,7 @@ private:
     }
 
     void read_blades() {
-        const double tip = positive("TipRad");
+        const double tip = file_.positive("TipRad");
         if (!(tip > d_.hub.radius))
             file_.fail("TipRad", text("TipRad = ", tip, "; allowed: above HubRad = ", d_.hub.radius));
         d_.blade.cone = angle(numbered("PreCone", 1), 45);
@@ -292,7 +282,7 @@ private:
     double tip_mass(int k) {
         const std::string keyword = numbered("TipMass", k);
         if (!file_.has(keyword)) return k == 1 ? 0 : d_.blade.tip_mass;
-        return not_negative(keyword);
+        return file_.not_negative(keyword);
     }
 
     // Of the bearing, unless BeamDyn gives that of its drive. BeamDyn's sections have inertia about their axis; those
@@ -307,7 +297,9 @@ private:
             return of_drive;
         }
         if (k > 1 && !file_.has(bearing) && !file_.has(blade)) return d_.blade.pitch_inertia;
-        const auto given = [&](const std::string& keyword) { return file_.has(keyword) ? not_negative(keyword) : 0; };
+        const auto given = [&](const std::string& keyword) {
+            return file_.has(keyword) ? file_.not_negative(keyword) : 0;
+        };
         return given(bearing) + (context_.blade ? 0 : given(blade));
     }
 
@@ -344,12 +336,11 @@ private:
     }
 
     void note_states() {
-        const double speed = file_.number("RotSpeed");
-        if (speed < 0) file_.fail("RotSpeed", text("RotSpeed = ", speed, "; allowed: >= 0"));
-        out_.rotor_speed = d_.rotor_speed = speed * units::rpm;
+        const double speed = file_.not_negative("RotSpeed") * units::rpm;
+        out_.rotor_speed = d_.rotor_speed = speed;
         out_.rotor_speed_source = text("RotSpeed of ", std::filesystem::path(file_.name()).filename().string());
         ModelRun& run = out_.run.emplace();
-        run.rotor_speed = speed * units::rpm;
+        run.rotor_speed = speed;
         if (!out_.pitch_source.empty()) run.pitch = out_.pitch;
         if (file_.has("Azimuth")) run.azimuth = angle("Azimuth", 360);
         if (file_.has("NacYaw")) run.yaw = angle("NacYaw", 180);

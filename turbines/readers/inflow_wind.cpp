@@ -20,11 +20,7 @@ SteadyWind steady_wind(OpenFastFile& file, double density) {
     wind.exponent = file.number_of("PLexp", 0);
     wind.shear = wind.exponent == 0 ? Shear::none : Shear::power;
     wind.density = density;
-    try {
-        wind.check();
-    } catch (const InputError& error) {
-        file.fail("HWindSpeed", error.what());
-    }
+    file.checked("HWindSpeed", [&] { wind.check(); });
     return wind;
 }
 

@@ -163,8 +163,7 @@ TurbineFile read_openfast(const std::filesystem::path& path) {
                              "what the tower stands on is not part of the description; it is clamped at its foot");
     main.left_out_unless("MHK", 0, "a machine under water: neither buoyancy nor added mass are part of the model");
     if (main.has("Gravity")) {
-        out.gravity = main.number("Gravity");
-        if (!(out.gravity >= 0)) main.fail("Gravity", text("Gravity = ", out.gravity, "; allowed: >= 0"));
+        out.gravity = main.not_negative("Gravity");
         if (out.gravity == 0) main.note("Gravity", "nothing has weight in this model");
     }
     append(out.notes, main.notes({{{"*"}, "simulation, aerodynamics and output: without meaning for the machine"}}));

@@ -224,6 +224,18 @@ double OpenFastFile::number_or(std::string_view keyword, double otherwise) {
     return has(keyword) ? number(keyword) : otherwise;
 }
 
+double OpenFastFile::positive(std::string_view keyword) {
+    const double value = number(keyword);
+    if (!(value > 0)) fail(keyword, cardan::text(keyword, " = ", value, "; allowed: > 0"));
+    return value;
+}
+
+double OpenFastFile::not_negative(std::string_view keyword) {
+    const double value = number(keyword);
+    if (!(value >= 0)) fail(keyword, cardan::text(keyword, " = ", value, "; allowed: >= 0"));
+    return value;
+}
+
 std::vector<double> OpenFastFile::numbers(std::string_view keyword, std::size_t count) {
     const Line& line = known(keyword);
     if (line.tokens.size() < count)

@@ -66,6 +66,8 @@ public:
     /// and for a value of the wrong kind. Entries that were requested count as used.
     double number(std::string_view keyword);
     double number_or(std::string_view keyword, double otherwise);
+    double positive(std::string_view keyword);
+    double not_negative(std::string_view keyword);
     /// The first so many.
     std::vector<double> numbers(std::string_view keyword, std::size_t count);
     /// Whether there is an entry of one value, this number, which then does not count as used.
@@ -87,6 +89,16 @@ public:
             return read();
         } catch (const FileError& error) {
             fail(keyword, cardan::text(keyword, ": ", error.what()));
+        }
+    }
+
+    /// What `make` returns; what it refuses, InputError, is said of the entry.
+    template <class Make>
+    auto checked(std::string_view keyword, const Make& make) const {
+        try {
+            return make();
+        } catch (const InputError& error) {
+            fail(keyword, error.what());
         }
     }
 

@@ -149,9 +149,7 @@ ModelController controller_of(OpenFastFile& file, const Generator& machine, bool
 }
 
 Bearing yaw_drive(OpenFastFile& file) {
-    const Bearing drive{file.number("YawSpr"), file.number("YawDamp")};
-    if (drive.damping < 0) file.fail("YawDamp", text("YawDamp = ", drive.damping, "; allowed: >= 0"));
-    if (drive.stiffness < 0) file.fail("YawSpr", text("YawSpr = ", drive.stiffness, "; allowed: >= 0"));
+    const Bearing drive{file.not_negative("YawSpr"), file.not_negative("YawDamp")};
     file.left_out_unless("YawNeut", 0, "the nacelle points into the wind here");
     return drive.stiffness == 0 ? Bearing{0, drive.damping, Bearing::Hold::free} : drive;
 }

@@ -64,11 +64,7 @@ Polar read_polar(OpenFastFile& file, const std::string& name, const PolarColumns
         check_user_property(file, part);
         tables.back().reynolds = reynolds_number(file, part, before);
     }
-    try {
-        return {name, std::move(tables)};
-    } catch (const InputError& error) {
-        file.fail("NumAlf", error.what());
-    }
+    return file.checked("NumAlf", [&] { return Polar{name, std::move(tables)}; });
 }
 
 // The unsteady data of the first table.
@@ -158,12 +154,11 @@ void note_cut_out(OpenFastFile& file, UnsteadyData& data) {
     check("UACutout_delta", cut_out_range, "unsteady airfoils fade from 40 to 45 deg here");
 }
 
-UnsteadyAirfoil made_airfoil(OpenFastFile& file, const Polar& polar, UnsteadyData& data, UnsteadyAirfoilModel model) {
-    try {
-        return {polar, flow_of(file, data, polar), lags_of(data, model, polar)};
-    } catch (const InputError& error) {  // numbers beyond all measure
-        file.fail("NumAlf", error.what());
-    }
+UnsteadyProfile made_profile(OpenFastFile& file, const Polar& polar, UnsteadyData& data, ProfileModel model) {
+    // Not of numbers beyond all measure.
+    return file.checked("NumAlf", [&] {
+        return UnsteadyProfile{polar, flow_of(file, data, polar), lags_of(data, model, polar)};
+    });
 }
 
 }  // namespace
