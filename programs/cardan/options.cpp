@@ -20,16 +20,16 @@ constexpr auto wind_format = "numbers and FIRST:LAST:STEP separated by commas, m
 
 }  // namespace
 
-std::vector<Option> add_profile_options(CommandLine& app, AirArguments& a) {
+std::vector<Option> add_airfoil_options(CommandLine& app, AirArguments& a) {
     return {app.add_option("--air", a.file,
-                           "profiles: the main file of AeroDyn 15, or windIO (default: those of the model)")
+                           "airfoils: the main file of AeroDyn 15, or windIO (default: those of the model)")
                 .type_name("FILE"),
-            app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the profiles' file, 1.225)")
+            app.add_option("--density", a.density, "of the air, kg/m^3 (default: that of the airfoils' file, 1.225)")
                 .positive()};
 }
 
 std::vector<Option> add_air_options(CommandLine& app, AirArguments& a) {
-    std::vector<Option> all = add_profile_options(app, a);
+    std::vector<Option> all = add_airfoil_options(app, a);
     all.push_back(app.add_option("--shear", a.shear, "exponent of the wind's profile over the height").finite());
     all.push_back(
         app.add_option("--wind-direction", a.direction, "where the wind blows to, deg from downwind to the left")

@@ -15,7 +15,7 @@
 
 namespace cardan::program {
 
-/// @name Air: profiles, options, wind
+/// @name Air: airfoils, options, wind
 ///@{
 struct AirArguments {
     std::string file;                  ///< AeroDyn's main file, or windIO; empty: the machine's
@@ -27,7 +27,7 @@ struct AirArguments {
 };
 /// Of these, file and density alone.
 /// @return the options
-std::vector<Option> add_profile_options(CommandLine& app, AirArguments& arguments);
+std::vector<Option> add_airfoil_options(CommandLine& app, AirArguments& arguments);
 std::vector<Option> add_air_options(CommandLine& app, AirArguments& arguments);
 /// Of commands whose wake is in equilibrium, or none.
 Option add_wake_option(CommandLine& app, AirArguments& arguments);
@@ -68,7 +68,7 @@ turbines::OperationSettings operation_of(const WindArguments& wind);
 /// What the air does to a vibration.
 struct VibrationArguments {
     WindArguments wind;  ///< of its wake, air.wake, frozen and dynamic too
-    bool steady_profiles = false, floquet = false;
+    bool steady_airfoils = false, floquet = false;
     int harmonics = turbines::CampbellSettings().harmonics;
 
     VibrationArguments() { wind.air.wake = "dynamic"; }
