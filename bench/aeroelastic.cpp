@@ -52,7 +52,7 @@ void diagram_point(benchmark::State& state, turbines::Wake wake, bool unsteady_a
 }
 
 void in_pairs(benchmark::internal::Benchmark* one) {
-    one->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMillisecond);
+    one->UseManualTime()->Iterations(bench::Pairs::min)->Unit(benchmark::kMillisecond);
 }
 
 BENCHMARK_CAPTURE(diagram_point, frozen, turbines::Wake::frozen, false)->Apply(in_pairs);

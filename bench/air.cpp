@@ -101,11 +101,11 @@ void beside(benchmark::State& state, void (Machine::*air)(), void (Machine::*str
 
 BENCHMARK_CAPTURE(beside, forces, &Machine::forces_of_air, &Machine::forward_dynamics)
     ->UseManualTime()
-    ->Iterations(bench::Pairs::least)
+    ->Iterations(bench::Pairs::min)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(beside, derivatives, &Machine::derivatives_of_air, &Machine::derivatives_of_dynamics)
     ->UseManualTime()
-    ->Iterations(bench::Pairs::least)
+    ->Iterations(bench::Pairs::min)
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

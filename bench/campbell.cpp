@@ -66,7 +66,7 @@ void campbell_sweep(benchmark::State& state, Machine machine, const std::vector<
 }
 
 void in_pairs(benchmark::internal::Benchmark* b) {
-    b->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMillisecond);
+    b->UseManualTime()->Iterations(bench::Pairs::min)->Unit(benchmark::kMillisecond);
 }
 
 using solvers::CampbellMethod;

@@ -54,7 +54,7 @@ struct Closed {
 
 void numbers_of_windows(benchmark::internal::Benchmark* benchmark) {
     for (const int windows : {1, 2, 5, 10, 20, 40}) benchmark->Arg(windows);
-    benchmark->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMicrosecond);
+    benchmark->UseManualTime()->Iterations(bench::Pairs::min)->Unit(benchmark::kMicrosecond);
 }
 
 void accelerations(benchmark::State& state) {
@@ -184,7 +184,7 @@ BENCHMARK(motion)
     ->Arg(10)
     ->Arg(40)
     ->UseManualTime()
-    ->Iterations(bench::Pairs::least)
+    ->Iterations(bench::Pairs::min)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -51,7 +51,7 @@ inline double median(std::vector<double> values) {
 /// Pairs of times, s.
 class Pairs {
 public:
-    static constexpr int least = 21;  ///< pairs of which a ratio is shown
+    static constexpr int min = 21;  ///< pairs of which a ratio is shown
 
     void add(double first, double second) {
         first_.push_back(first);

@@ -151,7 +151,7 @@ void register_all() {
     };
     const auto compare = [&](const std::string& tree_name, const Tree& tree) {
         order.push_back(tree_name);
-        const int rounds = tree.bodies().size() < 200 ? 101 : bench::Pairs::least;
+        const int rounds = tree.bodies().size() < 200 ? 101 : bench::Pairs::min;
         for (std::size_t i = 0; i < quantities.size(); ++i)
             add(text(tree_name, "/", quantities[i].name), rounds,
                 [=](benchmark::State& state) { beside_simbody(state, tree_name, tree, i); });

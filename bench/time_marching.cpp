@@ -190,14 +190,14 @@ void time_marching_samples(benchmark::State& state) {
 }
 
 void few_and_many(benchmark::internal::Benchmark* b) {
-    b->Arg(3)->Arg(12)->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMillisecond);
+    b->Arg(3)->Arg(12)->UseManualTime()->Iterations(bench::Pairs::min)->Unit(benchmark::kMillisecond);
 }
 BENCHMARK_CAPTURE(time_marching_wt600, dirk, solvers::Method::dirk)->Apply(few_and_many);
 BENCHMARK_CAPTURE(time_marching_wt600, bdf, solvers::Method::bdf)->Apply(few_and_many);
 BENCHMARK_CAPTURE(time_marching_wt600, generalised_alpha, solvers::Method::generalised_alpha)->Apply(few_and_many);
 
 void eight(benchmark::internal::Benchmark* b) {
-    b->Arg(8)->UseManualTime()->Iterations(bench::Pairs::least)->Unit(benchmark::kMillisecond);
+    b->Arg(8)->UseManualTime()->Iterations(bench::Pairs::min)->Unit(benchmark::kMillisecond);
 }
 BENCHMARK_CAPTURE(time_marching_nrel5mw, dirk, solvers::Method::dirk)->Apply(eight);
 BENCHMARK_CAPTURE(time_marching_nrel5mw, bdf, solvers::Method::bdf)->Apply(eight);
@@ -207,7 +207,7 @@ BENCHMARK(time_marching_states)
     ->Arg(6)
     ->Arg(15)
     ->UseManualTime()
-    ->Iterations(bench::Pairs::least)
+    ->Iterations(bench::Pairs::min)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

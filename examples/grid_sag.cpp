@@ -39,7 +39,7 @@ int main() try {
 
     const double current = torque / (1.5 * machine.pole_pairs * machine.magnet_flux),
                  power = torque * speed - 1.5 * machine.resistance * current * current,
-                 most = 1.5 * left * grid.peak() * generator.current_limit;
+                 max = 1.5 * left * grid.peak() * generator.current_limit;
     std::printf("kW            time, s   into the grid      by hand      chopper      by hand   torque, kN m\n");
     const auto print = [&](const char* when, std::size_t at, double to_grid, double burnt) {
         std::printf("%-12s %8.3f %15.3f %12.3f %12.3f %12.3f %14.3f\n", when, history.time[at],
@@ -47,7 +47,7 @@ int main() try {
                     burnt / 1e3, history["generator torque"][at] / 1e3);
     };
     print("before", 250, power, 0);
-    print("in the sag", 440, most, power - most);
+    print("in the sag", 440, max, power - max);
     print("after", 1000, power, 0);
     solvers::plot(history, {{{"generator power", "generator chopper power"}}, {{"generator link voltage"}}},
                   "grid_sag.svg");

@@ -28,11 +28,11 @@ PointRange points_between(const std::vector<double>& angles, double from, double
     return {static_cast<std::size_t>(first - angles.begin()), static_cast<std::size_t>(last - angles.begin())};
 }
 
-std::size_t point_of_least_drag(const Polar::Table& table, const PointRange& near) {
-    std::size_t least = near.first;
+std::size_t point_of_min_drag(const Polar::Table& table, const PointRange& near) {
+    std::size_t min = near.first;
     for (std::size_t i = near.first; i < near.last; ++i)
-        if (table.drag[i] < table.drag[least]) least = i;
-    return least;
+        if (table.drag[i] < table.drag[min]) min = i;
+    return min;
 }
 
 bool is_cylinder(const Polar::Table& table, const PointRange& near) {
@@ -47,9 +47,10 @@ bool is_cylinder(const Polar::Table& table, const PointRange& near) {
 // Slope of the normal force in the intervals of a table, each at its middle.
 class NormalSlopes {
 public:
-    NormalSlopes(const Polar::Table& table, double least_drag) {
+    NormalSlopes(const Polar::Table& table, double zero_lift_drag) {
         const auto normal = [&](std::size_t i) {
-            return table.lift[i] * std::cos(table.angles[i]) + (table.drag[i] - least_drag) * std::sin(table.angles[i]);
+            return table.lift[i] * std::cos(table.angles[i]) +
+                   (table.drag[i] - zero_lift_drag) * std::sin(table.angles[i]);
         };
         middles_.reserve(table.angles.size());
         slopes_.reserve(table.angles.size());
@@ -80,13 +81,12 @@ struct AngleRange {
     double lower, upper;
 };
 
-// From the interval above the least drag (below it if that one lies beyond reach), the point `least`, as far as the
+// From the interval above the minimum drag (below it if that one lies beyond reach), the point `min`, as far as the
 // slope is the same.
-AngleRange linear_range(const NormalSlopes& slopes, double angle, std::size_t least) {
-    const double below = slopes.middle(least - 1), above = slopes.middle(least),
-                 share = (angle - below) / (above - below),
-                 at_least = (1 - share) * slopes.smooth(least - 1) + share * slopes.smooth(least);
-    const std::size_t begin = above > reach ? least - 1 : least;
+AngleRange linear_range(const NormalSlopes& slopes, double angle, std::size_t min) {
+    const double below = slopes.middle(min - 1), above = slopes.middle(min), share = (angle - below) / (above - below),
+                 at_least = (1 - share) * slopes.smooth(min - 1) + share * slopes.smooth(min);
+    const std::size_t begin = above > reach ? min - 1 : min;
     const auto end_towards = [&](bool up) {
         double largest = std::max(at_least, slopes.smooth(begin)), end = slopes.middle(begin);
         const auto next = [up](std::size_t i) { return up ? i + 1 : i - 1; };  // the one below 0 is no interval either
@@ -137,12 +137,12 @@ double zero_next_to(double angle, const Polar::Table& table, const PointRange& n
     return best;
 }
 
-AttachedFlow flow_without_slope(const KnownFlow& known, double least_drag) {
+AttachedFlow flow_without_slope(const KnownFlow& known, double zero_lift_drag) {
     return {.slope = known.slope.value_or(0),
             .zero_lift = known.zero_lift.value_or(0),
             .upper = known.upper.value_or(std::max(0.0, known.lower.value_or(0))),
             .lower = known.lower.value_or(std::min(0.0, known.upper.value_or(0))),
-            .least_drag = known.least_drag.value_or(least_drag)};
+            .zero_lift_drag = known.zero_lift_drag.value_or(zero_lift_drag)};
 }
 
 }  // namespace
@@ -151,17 +151,17 @@ AttachedFlow attached_flow(const Polar& polar, const KnownFlow& known) {
     const Polar::Table& table = polar.table();
     const PointRange near = points_between(table.angles, -reach, reach);
     if (near.size() == 0) return flow_without_slope(known, polar.at(0).drag);
-    const std::size_t least = point_of_least_drag(table, near);
-    if (near.size() < 3 || is_cylinder(table, near)) return flow_without_slope(known, table.drag[least]);
+    const std::size_t min = point_of_min_drag(table, near);
+    if (near.size() < 3 || is_cylinder(table, near)) return flow_without_slope(known, table.drag[min]);
 
     AttachedFlow out;
-    out.least_drag = known.least_drag.value_or(table.drag[least]);
-    const AngleRange found = linear_range(NormalSlopes(table, out.least_drag), table.angles[least], least);
+    out.zero_lift_drag = known.zero_lift_drag.value_or(table.drag[min]);
+    const AngleRange found = linear_range(NormalSlopes(table, out.zero_lift_drag), table.angles[min], min);
     out.upper = known.upper.value_or(std::max(found.upper, known.lower.value_or(found.upper)));
     out.lower = known.lower.value_or(std::min(found.lower, known.upper.value_or(found.lower)));
     const double aside = margin * (out.upper - out.lower);
     const LiftLine line = line_through(table, points_between(table.angles, out.lower + aside, out.upper - aside));
-    if (!line.rises()) return flow_without_slope(known, table.drag[least]);
+    if (!line.rises()) return flow_without_slope(known, table.drag[min]);
     out.slope = known.slope.value_or(line.slope);
     out.zero_lift = known.zero_lift.value_or(zero_next_to(line.zero, table, near));
     return out;

@@ -14,14 +14,14 @@ struct KnownFlow {
     std::optional<double> slope = {};              ///< of the lift, 1/rad
     std::optional<double> zero_lift = {};          ///< angle of attack without lift, rad
     std::optional<double> upper = {}, lower = {};  ///< ends of the range in which the lift is a line, rad
-    std::optional<double> least_drag = {};         ///< drag coefficient
+    std::optional<double> zero_lift_drag = {};     ///< drag coefficient
 };
 
 /// Attached flow of the first table of a polar, within 20 degrees of zero, as AeroDyn 5.0 finds what its files leave
 /// out [OpenFAST, modules/aerodyn/src/AirfoilInfo.f90; its manual, "Calculating Default Airfoil Coefficients",
-/// describes an older way to the slope]: - least_drag is that of the table. - lower ... upper: slopes of c_n = c_l
-/// cos(alpha) + (c_d - least_drag) sin(alpha) between the points of the table,
-///    smoothed over 2 degrees to both sides with the weight (1 - u^2)^3; the range begins at the least drag and ends
+/// describes an older way to the slope]: - zero_lift_drag is that of the table. - lower ... upper: slopes of c_n = c_l
+/// cos(alpha) + (c_d - zero_lift_drag) sin(alpha) between the points of the table,
+///    smoothed over 2 degrees to both sides with the weight (1 - u^2)^3; the range begins at the minimum drag and ends
 ///    on both sides where the slope falls below nine tenths of its largest value on the way.
 ///  - slope: that of the line of least squares through the lift in the middle three fifths of the range.
 ///  - zero_lift: the zero of the table's lift next to that of the line, so that the airfoil at rest has the lift of its

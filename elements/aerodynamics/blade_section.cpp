@@ -30,8 +30,8 @@ SectionAir section_air(const Induction& balance, const Annulus& annulus, double 
 }
 
 InductionShare induction_share(double tip_speed, double wind) {
-    constexpr double least_wind = 0.1;  // m/s
-    const double square = wind * wind + least_wind * least_wind, size = std::sqrt(square),
+    constexpr double min_wind = 0.1;  // m/s
+    const double square = wind * wind + min_wind * min_wind, size = std::sqrt(square),
                  ratio = std::abs(tip_speed) / size;
     if (ratio <= 1) return {.value = 0};
     if (ratio >= 2) return {};
@@ -60,11 +60,11 @@ Induction with_wake(const Induction& balance, double V_x, double V_y, const Roto
 void add_wake(std::span<Induction> inductions, std::span<const SectionInflow> sections, double angle,
               std::span<const double> levers, double share) {
     if (angle == 0 && share == 1) return;  // there are no levers either
-    constexpr std::size_t most = 32;
+    constexpr std::size_t max = 32;
     const double by_sine = angle > 0 ? 1 / std::sin(angle) : 0;
-    std::array<double, most> x = {}, y = {}, found = {};
-    for (std::size_t first = 0; first < inductions.size(); first += most) {
-        const std::size_t n = std::min(most, inductions.size() - first);
+    std::array<double, max> x = {}, y = {}, found = {};
+    for (std::size_t first = 0; first < inductions.size(); first += max) {
+        const std::size_t n = std::min(max, inductions.size() - first);
         const std::span<Induction> own = inductions.subspan(first, n);
         for (Induction& one : own) {
             one.axial *= share;

@@ -7,7 +7,7 @@ namespace cardan {
 
 namespace {
 
-constexpr double longest = 100, least_wind = 0.1;  // s, m/s
+constexpr double longest = 100, min_wind = 0.1;  // s, m/s
 
 }  // namespace
 
@@ -16,7 +16,7 @@ InflowTimes inflow_times(double first, double share) {
 }
 
 double inflow_time(double radius, double induction, double wind) {
-    return std::min(longest, 1.1 * radius / ((1 - 1.3 * std::min(induction, 0.5)) * std::max(wind, least_wind)));
+    return std::min(longest, 1.1 * radius / ((1 - 1.3 * std::min(induction, 0.5)) * std::max(wind, min_wind)));
 }
 
 double mean_induction(std::span<const double> shares, std::span<const double> axial) {

@@ -13,11 +13,11 @@ namespace cardan {
 namespace {
 
 constexpr int at_once = 8;
-constexpr double least_angle = 1e-6;                           // rad, from where sine or cosine vanish
-constexpr double no_loss = 40;                                 // over sin(phi): from there on Prandtl's factor is 1
-constexpr double least_factor = 1e-4, glauert_from = 2.0 / 3;  // as in Balance
-constexpr double least_share = 0.1;                            // of the wind that is left, to begin with
-constexpr int most_steps = 16;
+constexpr double min_angle = 1e-6;                           // rad, from where sine or cosine vanish
+constexpr double no_loss = 40;                               // over sin(phi): from there on Prandtl's factor is 1
+constexpr double min_factor = 1e-4, glauert_from = 2.0 / 3;  // as in Balance
+constexpr double min_share = 0.1;                            // of the wind that is left, to begin with
+constexpr int max_steps = 16;
 constexpr double last_step = 1e-8, last_but_one = 3e-6;  // of phi; the error of Newton's method is squared by a step
 
 using Lanes = double[at_once];
@@ -47,7 +47,7 @@ CARDAN_VECTORISED void guess_angles(Group* __restrict g) {
         g->solidity[i] = g->chords[i] / (2 * pi * g->radius[i]);
         const double x = g->V_x[i] / g->V_y[i], part = g->solidity[i] / 4, p = (x - part * g->lift_slope[i]) / 2,
                      source = part * (g->lift_slope[i] * g->angle[i] - g->lift[i]),
-                     t = std::max(p + std::sqrt(std::max(p * p + source, 0.0)), least_share * x), by_t = 1 / t;
+                     t = std::max(p + std::sqrt(std::max(p * p + source, 0.0)), min_share * x), by_t = 1 / t;
         // An angle near atan(t).
         g->phi[i] = t < 1 ? t / (1 + 0.28 * t * t) : pi / 2 - by_t / (1 + 0.28 * by_t * by_t);
     }
@@ -89,8 +89,8 @@ CARDAN_VECTORISED void find_balance(Group* __restrict g, const Terms* __restrict
                      normal_slope = lift_slope * c - lift * s + axial_slope * s + axial_drag * c,
                      driving = lift * s - side_drag * c,
                      driving_slope = lift_slope * s + lift * c - side_slope * c + side_drag * s;
-        const bool counts = g->F[i] >= least_factor;
-        const double F = counts ? g->F[i] : least_factor, F_slope = counts ? g->F_slope[i] : 0.0;
+        const bool counts = g->F[i] >= min_factor;
+        const double F = counts ? g->F[i] : min_factor, F_slope = counts ? g->F_slope[i] : 0.0;
         const double by_all = 1 / (F * s * c), by_F = s * c * by_all, by_s = F * c * by_all, by_c = F * s * by_all;
         const double part = solidity * by_F * by_s * by_s, k = part * normal,
                      k_slope = part * normal_slope - k * (F_slope * by_F + 2 * c * by_s),
@@ -143,13 +143,13 @@ public:
         count_ = static_cast<int>(sections.size());
         for (int i = 0; i < at_once; ++i) load(i, sections[static_cast<std::size_t>(std::min(i, count_ - 1))]);
         guess_angles(&g_);
-        for (int step = 0; step < most_steps; ++step) {
+        for (int step = 0; step < max_steps; ++step) {
             evaluate();
             if (move()) break;
         }
         for (int i = 0; i < count_; ++i) {
             const SectionInflow& own = sections[static_cast<std::size_t>(i)];
-            out[static_cast<std::size_t>(i)] = state_[i] == State::at_rest && is_least(i, own)
+            out[static_cast<std::size_t>(i)] = state_[i] == State::at_rest && is_min(i, own)
                                                    ? found_[i]
                                                    : solve_induction(*own.annulus, own.V_x, own.V_y, options_);
         }
@@ -179,10 +179,10 @@ private:
         g_.radius[i] = a.radius;
     }
 
-    bool is_least(int i, const SectionInflow& own) const {
+    bool is_min(int i, const SectionInflow& own) const {
         const double attack = std::remainder(found_[i].root - own.annulus->angle, 2 * pi);
         return (g_.F[i] > large_loss && own.annulus->polar->is_attached(attack)) ||
-               is_least_attack(own, options_, found_[i].root);
+               is_min_attack(own, options_, found_[i].root);
     }
 
     void evaluate() {
@@ -230,12 +230,12 @@ private:
             const double next = phi - g_.step[i];
             if (!std::isfinite(next)) {
                 state_[i] = State::lost;
-            } else if (next > least_angle && next < pi / 2 - least_angle) {
+            } else if (next > min_angle && next < pi / 2 - min_angle) {
                 moved_[i] = next - phi;
                 phi = next;
                 if (is_last(i)) settle(i);
             } else {
-                phi = (phi + (next <= least_angle ? least_angle : pi / 2 - least_angle)) / 2;
+                phi = (phi + (next <= min_angle ? min_angle : pi / 2 - min_angle)) / 2;
                 g_.room[i] = 0;
             }
             done = done && state_[i] != State::moving;

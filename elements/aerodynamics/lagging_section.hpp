@@ -26,14 +26,14 @@ struct SectionLags {
     InflowTimes times = {0, 0};                          ///< of a dynamic wake, s
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< induced, of a frozen one, m/s
 
-    static constexpr int most = int{DynamicInflow::states} + int{UnsteadyAirfoil::states};
+    static constexpr int max_states = int{DynamicInflow::states} + int{UnsteadyAirfoil::states};
     bool has_airfoil() const { return airfoil != nullptr && airfoil->is_unsteady(); }
     int inflow_states() const { return wake == WakeLag::dynamic ? DynamicInflow::states : 0; }
     int airfoil_states() const { return has_airfoil() ? airfoil->own_states() : 0; }
     int states() const { return inflow_states() + airfoil_states(); }
 };
 /// States of a section; only the first SectionLags::states() count.
-using SectionStates = Eigen::Matrix<double, SectionLags::most, 1>;
+using SectionStates = Eigen::Matrix<double, SectionLags::max_states, 1>;
 
 /// Motion of a section as its flow sees it.
 struct SectionMotion {
@@ -62,7 +62,7 @@ SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion,
 /// Derivatives of normal, driving, moment and the states' rates (rows).
 struct LaggingSlopes {
     enum Column : std::uint8_t { V_x, V_y, angle, radius, wake_angle, wake_lever, wake_share, rate, first_state };
-    static constexpr int columns = first_state + SectionLags::most, rows = 3 + SectionLags::most;
+    static constexpr int columns = first_state + SectionLags::max_states, rows = 3 + SectionLags::max_states;
     Eigen::Matrix<double, rows, columns> by = Eigen::Matrix<double, rows, columns>::Zero();
 };
 /// @param at  lagging_air() with the same arguments

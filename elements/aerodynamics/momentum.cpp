@@ -184,7 +184,7 @@ Induction solve_induction(const Annulus& annulus, double V_x, double V_y, const 
     });
 }
 
-bool is_least_attack(const SectionInflow& at, const MomentumOptions& options, double root) {
+bool is_min_attack(const SectionInflow& at, const MomentumOptions& options, double root) {
     const Annulus& annulus = *at.annulus;
     const Balance<double> balance(annulus, Inflow<double>{at.V_x, at.V_y, annulus.angle, annulus.radius}, options);
     return is_next(balance, *annulus.polar, root);

@@ -17,8 +17,8 @@ constexpr double slack = 1e-6;  // rad, of the ends of a table
 constexpr double same = 1e-9;   // rad, of points of two tables
 constexpr double attached_angle = 0.08;
 constexpr double gives_way = -0.1;                  // of the steepest slope
-constexpr double most_coefficient = 1e3;            // coefficient
-constexpr double most_reynolds = 1e12;              // flow: Reynolds number
+constexpr double max_coefficient = 1e3;             // coefficient
+constexpr double max_reynolds = 1e12;               // flow: Reynolds number
 constexpr double usual_angle = 10 * units::degree;  // to both sides of zero the lift is steepest
 
 void check(const std::string& here, const Polar::Table& table) {
@@ -36,9 +36,9 @@ void check(const std::string& here, const Polar::Table& table) {
         if (std::abs(angles[i]) > 2 * pi)
             throw InputError(text(here, ", point ", i + 1), "angle of attack [rad]", angles[i], "at most a turn");
         for (const auto* column : {&table.lift, &table.drag, &table.moment})
-            if (std::abs((*column)[i]) > most_coefficient)
+            if (std::abs((*column)[i]) > max_coefficient)
                 throw InputError(text(here, ", point ", i + 1), "coefficient", (*column)[i],
-                                 text(-most_coefficient, " ... ", most_coefficient));
+                                 text(-max_coefficient, " ... ", max_coefficient));
         if (i > 0 && !(angles[i] > angles[i - 1]))
             throw InputError(text(here, ", point ", i + 1), "angle of attack [deg]", angles[i] * units::to_degrees,
                              text("above that of the point before, ", angles[i - 1] * units::to_degrees));
@@ -104,10 +104,9 @@ Polar::Polar(std::string name, std::vector<Table> tables) : name_(std::move(name
     for (Table& table : tables) {
         const std::string place = several ? text(here, ", table ", tables_.size() + 1) : here;
         check(place, table);
-        const double least = tables_.empty() ? 0 : tables_.back().table.reynolds;
-        if (several && !(table.reynolds > least && table.reynolds >= 1 && table.reynolds <= most_reynolds))
-            throw InputError(place, "Reynolds number", table.reynolds,
-                             text("above ", least, ", 1 ... ", most_reynolds));
+        const double min = tables_.empty() ? 0 : tables_.back().table.reynolds;
+        if (several && !(table.reynolds > min && table.reynolds >= 1 && table.reynolds <= max_reynolds))
+            throw InputError(place, "Reynolds number", table.reynolds, text("above ", min, ", 1 ... ", max_reynolds));
         tables_.emplace_back(std::move(table));
     }
     const Point attached = at(attached_angle);

@@ -13,7 +13,7 @@ namespace cardan {
 
 namespace {
 
-constexpr double least_lag = 1e-3, largest_lag = 50;  // of T, s
+constexpr double min_lag = 1e-3, largest_lag = 50;  // of T, s
 
 // f = (2 sqrt(c_l / c_l,attached) - 1)^2 at most 1.
 double kirchhoff(double lift, double attached) {
@@ -60,7 +60,7 @@ void check(const Polar& polar, const AttachedFlow& flow, const UnsteadyAirfoilCo
     for (const auto& [name, value] : {std::pair("angle without lift [rad]", flow.zero_lift),
                                       {"angle at which the flow separates, upper [rad]", flow.upper},
                                       {"angle at which the flow separates, lower [rad]", flow.lower},
-                                      {"least drag", flow.least_drag}})
+                                      {"zero-lift drag", flow.zero_lift_drag}})
         if (!std::isfinite(value)) throw InputError(here, name, value, "finite");
     require_not_negative(here, "slope of the lift [1/rad]", flow.slope);
     if (flow.lower > flow.upper)
@@ -134,7 +134,7 @@ template <class S>
 UnsteadyAirfoil::Flow<S> UnsteadyAirfoil::flow_at(const Values<S>& at) const {
     using std::atan2, std::cos, std::sin;
     Flow<S> out{};
-    out.T = limited<S>(at.chord / 2 / at.speed, least_lag, largest_lag);
+    out.T = limited<S>(at.chord / 2 / at.speed, min_lag, largest_lag);
     out.attack_34 = atan2(at.speed * sin(at.attack) + at.rate * (at.chord / 2), at.speed * cos(at.attack));
     const bool alone = follows_separation_alone();
     out.effective = alone ? out.attack_34 : (1 - lags_.A1 - lags_.A2) * out.attack_34 + at.x[wake_1] + at.x[wake_2];
@@ -176,7 +176,7 @@ std::array<S, 3> UnsteadyAirfoil::coefficients_of(const Values<S>& at) const {
     out[2] = on_curve(table.moment, table.moment_slope, flow.effective);
     if (!follows_separation_alone()) {
         out[1] = out[1] + (flow.attack_34 - flow.effective + flow.T * at.rate) * circulation +
-                 (drag - flow_.least_drag) * lagging_drag;
+                 (drag - flow_.zero_lift_drag) * lagging_drag;
         out[2] = out[2] - pi / 2 * flow.T * at.rate;
     }
     const S share = share_of(at.attack);

@@ -19,7 +19,7 @@ struct AttachedFlow {
     double slope = 0;             ///< of the lift, 1/rad
     double zero_lift = 0;         ///< angle of attack without lift, rad
     double upper = 0, lower = 0;  ///< angles of attack at which the flow begins to separate, rad
-    double least_drag = 0;        ///< drag coefficient without lift
+    double zero_lift_drag = 0;    ///< drag coefficient without lift
 };
 
 /// Model of unsteady airfoil aerodynamics.
@@ -54,7 +54,7 @@ struct AirfoilMotion {
 ///
 ///     c_l = x4 slope (alpha_E - zero_lift) + (1 - x4) c_l,separated(alpha_E) + pi T rate,
 ///     c_d = c_d(alpha_E) + (alpha_34 - alpha_E + T rate) (c_l - pi T rate)
-///           + [c_d(alpha_E) - least drag] [(sqrt f(alpha_E) - sqrt x4) / 2 - (f(alpha_E) - x4) / 4],
+///           + [c_d(alpha_E) - minimum drag] [(sqrt f(alpha_E) - sqrt x4) / 2 - (f(alpha_E) - x4) / 4],
 ///     c_m = c_m(alpha_E) - pi/2 T rate.
 ///
 /// With UnsteadyAirfoilModel::oye alpha_E = alpha_F = alpha_34, the terms with the rate are not there, and c_d is that

@@ -59,10 +59,10 @@ Vec3 WindAtPlaces::at(const Vec3& place) const {
 }
 
 void WindAtPlaces::at(std::span<const Vec3> places, std::span<Vec3> out) const {
-    constexpr std::size_t most = 64;
-    std::array<double, most> ratios = {}, laws = {};
-    for (std::size_t first = 0; first < places.size(); first += most) {
-        const std::size_t n = std::min(most, places.size() - first);
+    constexpr std::size_t max = 64;
+    std::array<double, max> ratios = {}, laws = {};
+    for (std::size_t first = 0; first < places.size(); first += max) {
+        const std::size_t n = std::min(max, places.size() - first);
         const std::span<const Vec3> own = places.subspan(first, n);
         if (wind_.shear == Shear::power) {
             for (std::size_t i = 0; i < n; ++i) ratios[i] = wind_.height(own[i]) / wind_.reference_height;
@@ -117,18 +117,18 @@ void SteadyWind::check() const {
                                       {"vertical speed [m/s]", vertical},
                                       {"height of the ground [m]", ground}})
         if (!std::isfinite(value)) throw InputError("wind", name, value, "finite");
-    for (const auto& [name, value, most] : {std::tuple("speed [m/s]", speed, 1e3),
-                                            {"gust [m/s]", gust, 1e3},
-                                            {"vertical speed [m/s]", vertical, 1e3},
-                                            {"reference height [m]", reference_height, 1e5},
-                                            {"density of the air [kg/m^3]", density, 1e4},
-                                            {"exponent of the shear", exponent, 10.0},
-                                            {"gradient over the height [1/m]", gradient, 1e3},
-                                            {"gradient across the wind [1/m]", lateral, 1e3},
-                                            {"direction [rad]", direction, 4 * pi},
-                                            {"veer [rad/m]", veer, 1e3},
-                                            {"upflow [rad]", upflow, pi / 2}})
-        if (std::abs(value) > most) throw InputError("wind", name, value, text(-most, " ... ", most));
+    for (const auto& [name, value, max] : {std::tuple("speed [m/s]", speed, 1e3),
+                                           {"gust [m/s]", gust, 1e3},
+                                           {"vertical speed [m/s]", vertical, 1e3},
+                                           {"reference height [m]", reference_height, 1e5},
+                                           {"density of the air [kg/m^3]", density, 1e4},
+                                           {"exponent of the shear", exponent, 10.0},
+                                           {"gradient over the height [1/m]", gradient, 1e3},
+                                           {"gradient across the wind [1/m]", lateral, 1e3},
+                                           {"direction [rad]", direction, 4 * pi},
+                                           {"veer [rad/m]", veer, 1e3},
+                                           {"upflow [rad]", upflow, pi / 2}})
+        if (std::abs(value) > max) throw InputError("wind", name, value, text(-max, " ... ", max));
     if (shear == Shear::logarithmic && !(roughness > 0 && roughness < reference_height))
         throw InputError("wind", "roughness [m]", roughness,
                          text("0 ... ", reference_height, ", the reference height"));

@@ -21,13 +21,13 @@ struct Outboard {
     }
     /// Stiffness about a hinge per squared spin: int r (r - hinge) dm out of the plane of rotation, less by
     /// int (r - hinge)^2 dm in it.
-    double least_stiffness(double hinge) const {
+    double min_stiffness(double hinge) const {
         return std::min(second - hinge * first, hinge * (first - hinge * mass));
     }
 };
 
 // Least stiffness of one cardan joint of an element, the other held, N m/rad.
-double least_stiffness(const CardanBeam::Element& element, ElementCoordinate y, ElementCoordinate z) {
+double min_stiffness(const CardanBeam::Element& element, ElementCoordinate y, ElementCoordinate z) {
     std::vector<Eigen::Index> at;
     for (Eigen::Index i = 0; i < std::ssize(element.kinds); ++i)
         if (const ElementCoordinate kind = entry(element.kinds, i); kind == y || kind == z) at.push_back(i);
@@ -43,8 +43,8 @@ double centrifugal_limit(const CardanBeam& beam, double root_radius) {
     Outboard outboard;
     const auto meet = [&](const CardanBeam::Element& e, double fraction, ElementCoordinate y, ElementCoordinate z) {
         const double hinge = root_radius + (e.axes * Vec3(fraction * e.length, 0, 0))(0);
-        const double c = outboard.least_stiffness(hinge);
-        if (c < 0) squared = std::min(squared, least_stiffness(e, y, z) / -c);
+        const double c = outboard.min_stiffness(hinge);
+        if (c < 0) squared = std::min(squared, min_stiffness(e, y, z) / -c);
     };
     for (std::size_t k = beam.elements.size(); k-- > 0;) {
         const CardanBeam::Element& e = beam.elements[k];

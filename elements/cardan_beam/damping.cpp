@@ -112,8 +112,8 @@ Matrix component_damping(MatrixIn M, MatrixIn K, const std::vector<int>& directi
         std::array<double, 4> energy{};
         const Vector force = K * phi;
         for (Eigen::Index a = 0; a < phi.size(); ++a) entry(energy, entry(direction, a)) += phi(a) * force(a);
-        const auto most = std::max_element(energy.begin(), energy.end()) - energy.begin();
-        const double ratio = damping.modal.all.empty() ? entry(lists, most).next(omega) : all.next(omega);
+        const auto max = std::max_element(energy.begin(), energy.end()) - energy.begin();
+        const double ratio = damping.modal.all.empty() ? entry(lists, max).next(omega) : all.next(omega);
         const Vector momentum = M * phi;
         D += 2 * ratio * omega * momentum * momentum.transpose();
     }

@@ -29,10 +29,10 @@ public:
         int blades = 3;
         double period = 0;              ///< s, between two calls
         bool individual_pitch = false;  ///< 28: every blade has a demand of its own
-        double fine_pitch = 0, largest_pitch = 1.5707963267948966, least_pitch_rate = -0.1396,
-               largest_pitch_rate = 0.1396;  ///< rad, rad/s: told to the controller, which may have its own
-        double rated_speed = 0;              ///< of the generator, rad/s
-        double largest_torque = 0;           ///< N m
+        double fine_pitch = 0, max_pitch = 1.5707963267948966, min_pitch_rate = -0.1396,
+               max_pitch_rate = 0.1396;  ///< rad, rad/s: told to the controller, which may have its own
+        double rated_speed = 0;          ///< of the generator, rad/s
+        double max_torque = 0;           ///< N m
     };
     /// Measured values that the controller is given, SI; a blade's values by its place. Records not named here are
     /// zero.

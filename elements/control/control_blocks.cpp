@@ -10,7 +10,7 @@ namespace cardan {
 
 namespace {
 
-using Gradient = std::array<double, ControlSignal::most_sources>;
+using Gradient = std::array<double, ControlSignal::max_sources>;
 
 StateInfo state_of(const BlockName& name, StateKind kind = StateKind::lag) {
     return {.name = name.name,

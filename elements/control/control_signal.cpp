@@ -38,8 +38,8 @@ ControlSignal sum(const ControlSignal& a, double sign, const ControlSignal& b) {
 
 ControlSignal::ControlSignal(std::vector<ControlSource> sources, Function function)
     : sources_(std::move(sources)), function_(std::move(function)) {
-    if (sources_.size() > most_sources)
-        throw InputError("signal", "number of sources", sources_.size(), text("at most ", most_sources));
+    if (sources_.size() > max_sources)
+        throw InputError("signal", "number of sources", sources_.size(), text("at most ", max_sources));
     if (!function_) throw InputError("signal: the function is missing");
 }
 
@@ -144,8 +144,8 @@ ControlWire::ControlWire(const ControlSignal& signal, ForceElement& element) : s
     }
 }
 
-double ControlWire::value(const ElementView& in, std::array<double, ControlSignal::most_sources>& gradient) const {
-    std::array<double, ControlSignal::most_sources> x{};
+double ControlWire::value(const ElementView& in, std::array<double, ControlSignal::max_sources>& gradient) const {
+    std::array<double, ControlSignal::max_sources> x{};
     for (std::size_t i = 0; i < ends_.size(); ++i) {
         const Eigen::Index at = ends_[i].at;
         switch (ends_[i].block) {
@@ -170,18 +170,18 @@ double ControlWire::value(const ElementView& in, std::array<double, ControlSigna
 }
 
 void ControlWire::add(const std::array<MatrixOut*, 5>& blocks, Eigen::Index row, double factor,
-                      const std::array<double, ControlSignal::most_sources>& gradient) const {
+                      const std::array<double, ControlSignal::max_sources>& gradient) const {
     for (std::size_t i = 0; i < ends_.size(); ++i)
         (*entry(blocks, static_cast<int>(ends_[i].block)))(row, ends_[i].at) += factor * gradient.at(i);
 }
 
 void ControlWire::add_to_Q(ElementJacobian& d, Eigen::Index row, double factor,
-                           const std::array<double, ControlSignal::most_sources>& gradient) const {
+                           const std::array<double, ControlSignal::max_sources>& gradient) const {
     add({&d.Q_q, &d.Q_qd, &d.Q_s, &d.Q_others, &d.Q_u}, row, factor, gradient);
 }
 
 void ControlWire::add_to_f(ElementJacobian& d, Eigen::Index row, double factor,
-                           const std::array<double, ControlSignal::most_sources>& gradient) const {
+                           const std::array<double, ControlSignal::max_sources>& gradient) const {
     add({&d.f_q, &d.f_qd, &d.f_s, &d.f_others, &d.f_u}, row, factor, gradient);
 }
 

@@ -31,9 +31,9 @@ class ControlSignal {
 public:
     /// A function of all sources and its gradient, which it overwrites.
     using Function = std::function<double(const double* sources, double* gradient)>;
-    static constexpr std::size_t most_sources = 64;
+    static constexpr std::size_t max_sources = 64;
 
-    /// @throws InputError for more than most_sources
+    /// @throws InputError for more than max_sources
     ControlSignal(std::vector<ControlSource> sources, Function function);
 
     const std::vector<ControlSource>& sources() const { return sources_; }
@@ -86,16 +86,16 @@ public:
     ControlWire(const ControlSignal& signal, ForceElement& element);
 
     /// @param gradient  of the sources, for add()
-    double value(const ElementView& in, std::array<double, ControlSignal::most_sources>& gradient) const;
+    double value(const ElementView& in, std::array<double, ControlSignal::max_sources>& gradient) const;
     /// Adds `factor` times the signal's derivatives to a row of Q or of f.
     void add_to_Q(ElementJacobian& d, Eigen::Index row, double factor,
-                  const std::array<double, ControlSignal::most_sources>& gradient) const;
+                  const std::array<double, ControlSignal::max_sources>& gradient) const;
     void add_to_f(ElementJacobian& d, Eigen::Index row, double factor,
-                  const std::array<double, ControlSignal::most_sources>& gradient) const;
+                  const std::array<double, ControlSignal::max_sources>& gradient) const;
 
 private:
     void add(const std::array<MatrixOut*, 5>& blocks, Eigen::Index row, double factor,
-             const std::array<double, ControlSignal::most_sources>& gradient) const;
+             const std::array<double, ControlSignal::max_sources>& gradient) const;
 
     enum class Block : std::uint8_t { q, qd, s, others, u };
     struct End {

@@ -35,10 +35,10 @@ void VariableSpeedParameters::check() const {
                          std::pair{"optimal gain [N m s^2/rad^2]", optimal_gain},
                          std::pair{"slip", slip},
                          std::pair{"rated power [W]", rated_power},
-                         std::pair{"largest torque [N m]", largest_torque},
-                         std::pair{"largest rate of the torque [N m/s]", largest_torque_rate},
+                         std::pair{"maximum torque [N m]", max_torque},
+                         std::pair{"maximum rate of the torque [N m/s]", max_torque_rate},
                          std::pair{"reference speed [rad/s]", reference_speed},
-                         std::pair{"largest rate of the pitch [rad/s]", largest_pitch_rate}};
+                         std::pair{"maximum pitch rate [rad/s]", max_pitch_rate}};
     if (gains.empty())
         positive.insert(positive.end(), {{"proportional gain [s]", proportional},
                                          {"integral gain", integral},
@@ -53,21 +53,21 @@ void VariableSpeedParameters::check() const {
     if (!(cut_in < optimum_from && optimum_from < transition && transition < rated_speed))
         throw InputError(name, "speeds of the torque curve [rad/s]",
                          text(cut_in, ", ", optimum_from, ", ", transition, ", ", rated_speed), "rising");
-    const auto check_range = [this](double least) {
-        if (!(least < largest_pitch))
-            throw InputError(name, "range of the pitch [rad]", text(least, " ... ", largest_pitch), "rising");
+    const auto check_range = [this](double min) {
+        if (!(min < max_pitch))
+            throw InputError(name, "range of the pitch [rad]", text(min, " ... ", max_pitch), "rising");
     };
-    check_range(least_pitch);
-    for (const PitchAtSpeed& one : least_pitches) check_range(one.pitch);
-    for (std::size_t i = 1; i < least_pitches.size(); ++i)
-        if (!(least_pitches[i].speed > least_pitches[i - 1].speed))
-            throw InputError(name, "speeds of the least pitches [rad/s]",
-                             text(least_pitches[i - 1].speed, ", ", least_pitches[i].speed), "rising");
+    check_range(min_pitch);
+    for (const PitchAtSpeed& one : min_pitches) check_range(one.pitch);
+    for (std::size_t i = 1; i < min_pitches.size(); ++i)
+        if (!(min_pitches[i].speed > min_pitches[i - 1].speed))
+            throw InputError(name, "speeds of the minimum pitches [rad/s]",
+                             text(min_pitches[i - 1].speed, ", ", min_pitches[i].speed), "rising");
 }
 
-double VariableSpeedParameters::least_pitch_at(double speed) const {
-    if (least_pitches.empty()) return least_pitch;
-    const Between at = between(least_pitches, speed, &PitchAtSpeed::speed);
+double VariableSpeedParameters::min_pitch_at(double speed) const {
+    if (min_pitches.empty()) return min_pitch;
+    const Between at = between(min_pitches, speed, &PitchAtSpeed::speed);
     return std::lerp(at.below.pitch, at.above.pitch, at.part);
 }
 
@@ -78,12 +78,11 @@ VariableSpeedController::VariableSpeedController(VariableSpeedParameters paramet
 double VariableSpeedController::torque(double speed, double pitch) const {
     const VariableSpeedParameters& p = own_;
     if (speed >= p.rated_speed || pitch >= p.constant_power_pitch)
-        return std::min(p.largest_torque,
-                        p.rated_power / (p.constant_power ? std::max(speed, p.cut_in) : p.rated_speed));
+        return std::min(p.max_torque, p.rated_power / (p.constant_power ? std::max(speed, p.cut_in) : p.rated_speed));
     if (speed <= p.cut_in) return 0;
     if (speed < p.optimum_from)
         return p.optimal_gain * p.optimum_from * p.optimum_from * (speed - p.cut_in) / (p.optimum_from - p.cut_in);
-    return std::min(p.torque_law().at(speed).torque, p.largest_torque);
+    return std::min(p.torque_law().at(speed).torque, p.max_torque);
 }
 
 PitchGains VariableSpeedController::gains_at(double pitch) const {
@@ -97,17 +96,16 @@ void VariableSpeedController::begin_integral(double pitch) {
 }
 
 // The sum is that of the error, which the gain of the moment multiplies; with rows of gains, that of the demand.
-double VariableSpeedController::demanded_pitch(double error, double pitch, double least) {
+double VariableSpeedController::demanded_pitch(double error, double pitch, double min) {
     const VariableSpeedParameters& p = own_;
     double& sum = memory_[pitch_integral];
     if (!p.gains.empty()) {
         const PitchGains own = gains_at(pitch);
-        sum = std::clamp(sum + own.integral * error * p.period, least, p.largest_pitch);
+        sum = std::clamp(sum + own.integral * error * p.period, min, p.max_pitch);
         return own.proportional * error + sum;
     }
     const double own_gain = gain(pitch);
-    sum =
-        std::clamp(sum + error * p.period, least / (own_gain * p.integral), p.largest_pitch / (own_gain * p.integral));
+    sum = std::clamp(sum + error * p.period, min / (own_gain * p.integral), p.max_pitch / (own_gain * p.integral));
     return own_gain * (p.proportional * error + p.integral * sum);
 }
 
@@ -124,16 +122,15 @@ VariableSpeedController::Demand VariableSpeedController::step(const Measured& no
     const double kept = std::exp(-p.period * p.corner_frequency);
     speed = (1 - kept) * now.generator_speed + kept * speed;
 
-    const double most = p.largest_torque_rate * p.period;
+    const double max = p.max_torque_rate * p.period;
     const double wanted_torque =
-        std::clamp(torque(speed, now.pitch), memory_[torque_before] - most, memory_[torque_before] + most);
+        std::clamp(torque(speed, now.pitch), memory_[torque_before] - max, memory_[torque_before] + max);
     memory_[torque_before] = wanted_torque;
 
     // The integral cannot ask for more than the range of the pitch.
-    const double least = p.least_pitch_at(speed);
-    const double wanted =
-        std::clamp(demanded_pitch(speed - p.reference_speed, now.pitch, least), least, p.largest_pitch);
-    const double step = p.largest_pitch_rate * p.period;
+    const double min = p.min_pitch_at(speed);
+    const double wanted = std::clamp(demanded_pitch(speed - p.reference_speed, now.pitch, min), min, p.max_pitch);
+    const double step = p.max_pitch_rate * p.period;
     double& pitch = memory_[pitch_before];
     pitch = std::clamp(wanted, pitch - step, pitch + step);
     return {wanted_torque, pitch};

@@ -20,7 +20,7 @@ struct PitchGains {
     double integral = 0;      ///< 1 (rad per rad)
 };
 
-/// A row of least pitches.
+/// A row of minimum pitches.
 struct PitchAtSpeed {
     double speed = 0;  ///< of the generator, rad/s
     double pitch = 0;  ///< rad
@@ -40,8 +40,8 @@ struct VariableSpeedParameters {
     double slip = 0;                                       ///< rated speed over the synchronous one, minus 1
     double rated_power = 0;                                ///< mechanical, W, above rated speed
     bool constant_power = true;                            ///< false: the torque is constant above rated speed
-    double largest_torque = 0;                             ///< N m
-    double largest_torque_rate = 0;                        ///< N m/s
+    double max_torque = 0;                                 ///< N m
+    double max_torque_rate = 0;                            ///< N m/s
     /// Above this pitch angle torque or power are constant whatever the speed, rad.
     double constant_power_pitch = 0;
 
@@ -51,15 +51,15 @@ struct VariableSpeedParameters {
     double doubling_pitch = 0;   ///< pitch angle at which the gain is halved, rad
     /// Gains over the pitch in the place of those three, linear between the rows, constant beyond the ends.
     std::vector<PitchGains> gains = {};
-    double least_pitch = 0, largest_pitch = 0;  ///< rad
-    /// In the place of least_pitch, over the filtered speed of the generator; linear between the rows, constant beyond.
-    std::vector<PitchAtSpeed> least_pitches = {};
-    double largest_pitch_rate = 0;  ///< rad/s
+    double min_pitch = 0, max_pitch = 0;  ///< rad
+    /// In the place of min_pitch, over the filtered speed of the generator; linear between the rows, constant beyond.
+    std::vector<PitchAtSpeed> min_pitches = {};
+    double max_pitch_rate = 0;  ///< rad/s
 
     /// Torque law from optimum_from up to the rated speed.
     TorqueLaw torque_law() const { return {rated_speed, rated_power / rated_speed, optimal_gain, slip}; }
     /// Minimum pitch at a filtered speed of the generator, rad.
-    double least_pitch_at(double speed) const;
+    double min_pitch_at(double speed) const;
     /// @throws InputError naming the parameter
     void check() const;
 };
@@ -100,7 +100,7 @@ private:
 
     // The sum of the PI controller, in its limits; begins at a pitch or goes on by an error of the speed.
     void begin_integral(double pitch);
-    double demanded_pitch(double error, double pitch, double least);
+    double demanded_pitch(double error, double pitch, double min);
     PitchGains gains_at(double pitch) const;
 
     VariableSpeedParameters own_;

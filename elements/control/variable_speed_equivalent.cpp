@@ -35,7 +35,7 @@ public:
         : p_(p),
           width_(width),
           law_(p.torque_law()),
-          floor_(std::max(p.cut_in, p.rated_power / p.largest_torque)),
+          floor_(std::max(p.cut_in, p.rated_power / p.max_torque)),
           bends_{p.cut_in, p.optimum_from, law_.transition_speed(), p.rated_speed},
           floor_bend_{floor_} {}
 
@@ -45,8 +45,8 @@ public:
             if (bends_[i] - bends_[i - 1] <= 2 * width_)
                 throw InputError(p_.name, "width of the bends of the torque curve [rad/s]", width_,
                                  text("< ", (bends_[i] - bends_[i - 1]) / 2, ", half the distance of two of them"));
-        if (p_.rated_power / p_.rated_speed > p_.largest_torque || floor_ > p_.rated_speed - width_)
-            throw InputError(p_.name, "largest torque [N m]", p_.largest_torque,
+        if (p_.rated_power / p_.rated_speed > p_.max_torque || floor_ > p_.rated_speed - width_)
+            throw InputError(p_.name, "maximum torque [N m]", p_.max_torque,
                              text("above that at rated speed, ", p_.rated_power / p_.rated_speed));
     }
     Point at(double speed) const {
@@ -126,9 +126,9 @@ VariableSpeedEquivalent variable_speed_equivalent(const VariableSpeedParameters&
         return Point{g, -g * g / k};
     };
     const auto inverse_gain = [k = p.doubling_pitch](double pitch) { return Point{1 + pitch / k, 1 / k}; };
-    if (!p.least_pitches.empty())
-        throw InputError(p.name, "least pitches over the speed", p.least_pitches.size(), "none here: least_pitch");
-    const SoftLimits limits{p.least_pitch, p.largest_pitch, rounding.pitch / (p.largest_pitch - p.least_pitch)};
+    if (!p.min_pitches.empty())
+        throw InputError(p.name, "minimum pitches over the speed", p.min_pitches.size(), "none here: min_pitch");
+    const SoftLimits limits{p.min_pitch, p.max_pitch, rounding.pitch / (p.max_pitch - p.min_pitch)};
     limits.check(p.name, "pitch");
     const ControlSignal wanted = measured.pitch.through(gain) * (p.proportional * error + signal::state(name.name)),
                         pitch = wanted.through(limits);

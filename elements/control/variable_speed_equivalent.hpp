@@ -41,7 +41,7 @@ struct VariableSpeedEquivalent {
 ///
 /// The gain multiplies the integral as a whole, as in the program. With T = proportional / integral, z is where the
 /// program's clamped integral is in steady saturation; on the way there they differ. Limits of rates are left to the
-/// actuators (Actuator::rates), for the torque largest_torque_rate, for the pitch largest_pitch_rate.
+/// actuators (Actuator::rates), for the torque max_torque_rate, for the pitch max_pitch_rate.
 ///
 /// States start from the measured values given, as the program does at its first sample.
 /// @throws InputError as VariableSpeedParameters::check(), for rows of gains, a constant torque above rated speed, a

@@ -182,10 +182,10 @@ detail::CircuitEquations Circuit::equations(ForceElement& element) const {
     detail::CircuitEquations out;
     out.name = options_.name;
     for (const auto count : {std::ssize(windings), capacitor_count, source_count, std::ssize(coordinates())})
-        if (count > detail::CircuitEquations::most)
+        if (count > detail::CircuitEquations::max_size)
             throw InputError(text("circuit '", options_.name, "'"),
                              "number of loops, capacitors, sources or coordinates", count,
-                             text("at most ", detail::CircuitEquations::most));
+                             text("at most ", detail::CircuitEquations::max_size));
     out.resistance.resize(branches);
     for (Eigen::Index row = 0; row < branches; ++row) out.resistance(row) = entry(branches_, row).resistance;
 

@@ -118,9 +118,9 @@ ReferenceLine ReferenceLine::curve(std::function<Vec3(double)> position, std::fu
 
 namespace {
 
-void check_points(const std::vector<Vec3>& points, std::size_t least) {
-    if (points.size() < least)
-        throw InputError("reference line", "number of points", points.size(), text("at least ", least));
+void check_points(const std::vector<Vec3>& points, std::size_t min) {
+    if (points.size() < min)
+        throw InputError("reference line", "number of points", points.size(), text("at least ", min));
     double length = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const double before = length;

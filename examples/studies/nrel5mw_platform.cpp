@@ -201,7 +201,7 @@ platform::ResponseOptions response_options(const Arguments& a, const turbines::T
     options.period = period_of(a, motions);
     options.compared = platform::tip_deflections(machine);
     options.settled = a.settled;
-    options.most_periods = a.periods;
+    options.max_periods = a.periods;
     options.samples = a.samples;
     options.progress = [](int period, double change) {
         program::progress(text("\rperiod ", period, ": change ", change, " m    "));

@@ -19,7 +19,7 @@ constexpr double stiffness = 100, belt = 0.2;  // N/m, m/s; the mass is 1 kg
 struct Case {
     const char* name;
     double damping, stribeck_speed, viscous;  // N s/m of the damper; m/s and N s/m of the friction
-    double period, greatest, least;           // reference: s, m, m
+    double period, greatest, min;             // reference: s, m, m
 };
 constexpr Case cases[] = {
     {"Stribeck's curve, without damping", 0, 0.1, 0, 1.0521471606, 0.160736365, 0.019617499},
@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
             program::compare_with(text("events; ", one.name));
             program::compare("period, s", cycle.tops[2] - cycle.tops[1], one.period, 9);
             program::compare("greatest x, m", cycle.highest[1], one.greatest, 9);
-            program::compare("least x, m", cycle.lowest[1], one.least, 9);
+            program::compare("least x, m", cycle.lowest[1], one.min, 9);
             if (&one == cases) solvers::plot(history, {{{"x"}}, {{"x rate"}}, {{"friction"}}}, study.picture);
         }
     });

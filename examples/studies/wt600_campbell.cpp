@@ -33,7 +33,7 @@ struct Arguments {
 
 void set_assembly(Arguments& a, bool with_limit) {
     if (a.paper) a.assembly = turbines::wt600_paper_assembly();
-    if (with_limit) a.assembly.mesh.largest_hz = a.max_frequency;
+    if (with_limit) a.assembly.mesh.max_hz = a.max_frequency;
     if (a.undamped) a.assembly.structural_damping = a.assembly.joint_damping = false;
     if (a.gravity) a.assembly.gravity = {0, 0, -units::standard_gravity};
     if (a.shaft_beam) a.assembly.shaft_beam = turbines::ShaftBeam{2e8};

@@ -213,8 +213,8 @@ std::vector<std::string> platform_motions(const solvers::History& history) {
         const std::string name = text("platform ", which);
         const auto channel = std::ranges::find(history.channels, name, &Channel::name);
         if (channel == history.channels.end()) continue;
-        const auto [least, most] = std::ranges::minmax(history[name]);
-        if (least < most) moving.push_back(name);
+        const auto [min, max] = std::ranges::minmax(history[name]);
+        if (min < max) moving.push_back(name);
     }
     return moving;
 }

@@ -71,10 +71,10 @@ int holder(const std::string& path) {
 
 // Where symbolic links lead, whether or not there is a file yet; they stay, and what they lead to is written.
 fs::path behind_links(fs::path path) {
-    constexpr int most = 40;  // as the kernel's
+    constexpr int max = 40;  // as the kernel's
     std::error_code code;
     for (int links = 0; fs::is_symlink(fs::symlink_status(path, code)); ++links) {
-        if (links == most) throw FileError(path.string(), "cannot be written: too many symbolic links");
+        if (links == max) throw FileError(path.string(), "cannot be written: too many symbolic links");
         const fs::path to = fs::read_symlink(path, code);
         if (code) throw FileError(path.string(), text("cannot be written: ", code.message()));
         path = path.parent_path() / to;  // `to` alone where that is absolute
@@ -171,8 +171,8 @@ void PendingFile::commit(bool replace) const {
 // Whoever writes a file has it locked before it gets its name. A file that is there is kept from being written while it
 // is replaced; one that is not there must not have appeared when the name is given.
 void PendingFile::give_name(bool replace) const {
-    constexpr int most = 100;
-    for (int attempt = 0; attempt < most; ++attempt) {
+    constexpr int max = 100;
+    for (int attempt = 0; attempt < max; ++attempt) {
         const Opened older(path_, O_RDONLY | O_NONBLOCK);
         const bool none = older.fd() < 0 && errno == ENOENT;
         if (!none && !replace) throw FileError(path_, "is there already");

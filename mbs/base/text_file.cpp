@@ -18,9 +18,9 @@ std::size_t character_length(std::string_view text) {
     if (first < 0x80) return 1;
     const std::size_t length = first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
     // The second byte decides what the first leaves open: overlong forms, surrogates, beyond U+10FFFF.
-    const unsigned least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
-    const unsigned most = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-    if (length == 0 || byte(1) < least || byte(1) > most) return 0;
+    const unsigned min = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+    const unsigned max = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+    if (length == 0 || byte(1) < min || byte(1) > max) return 0;
     for (std::size_t i = 2; i < length; ++i)
         if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
     return length;
@@ -62,7 +62,7 @@ std::string text_file(const std::filesystem::path& path) {
         all.resize(before + static_cast<std::size_t>(in.gcount()));
     }
     if (all.size() > longest_text)
-        throw FileError(path.string(), text("is longer than ", mebibytes(longest_text), ", the most a text may have"));
+        throw FileError(path.string(), text("is longer than ", mebibytes(longest_text), ", the maximum of a text"));
     if (in.is_open() && !in.bad()) return all;
     const std::string reason = errno != 0 ? std::generic_category().message(errno) : "read error";
     throw FileError(path.string(), text("cannot be read: ", reason));

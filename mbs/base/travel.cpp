@@ -112,22 +112,22 @@ Travel::Travel(double time, const State& from, double to, const TravelLimits& li
     require_finite("rate at the start", from.rate);
     require_finite("acceleration at the start", from.acceleration);
     require_finite("target", to);
-    const double jerk = require_jerk(limits), most = limits.acceleration;
+    const double jerk = require_jerk(limits), max = limits.acceleration;
 
-    const double sense = to >= Way(time, from).stop(most, jerk).position() ? 1 : -1, rate = sense * limits.rate;
-    const RateChange push(from.rate, from.acceleration, rate, most, jerk);
+    const double sense = to >= Way(time, from).stop(max, jerk).position() ? 1 : -1, rate = sense * limits.rate;
+    const RateChange push(from.rate, from.acceleration, rate, max, jerk);
     const auto after = [&](double length) { return Way(time, from).add(push, length); };
-    const auto left = [&](Way way) { return sense * (to - way.stop(most, jerk).position()); };
+    const auto left = [&](Way way) { return sense * (to - way.stop(max, jerk).position()); };
     double shortest = 0, longest = push.duration();
     if (const double way = left(after(longest).cruise(rate, 0)); way >= 0) {
-        after(longest).cruise(rate, way / limits.rate).stop(most, jerk).store(*this);
+        after(longest).cruise(rate, way / limits.rate).stop(max, jerk).store(*this);
         return;
     }
     for (int i = 0; i < 60; ++i) {
         const double middle = (shortest + longest) / 2;
         (left(after(middle)) > 0 ? shortest : longest) = middle;
     }
-    after(shortest).stop(most, jerk).store(*this);
+    after(shortest).stop(max, jerk).store(*this);
 }
 
 Travel Travel::straight(double time, double from, double to, double duration) {

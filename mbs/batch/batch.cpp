@@ -17,7 +17,7 @@ namespace cardan {
 
 namespace {
 
-constexpr int most_threads = 1024;  // every one has a workspace
+constexpr int max_threads = 1024;  // every one has a workspace
 
 // The exception of the lowest index so far.
 class Failure {
@@ -70,8 +70,8 @@ struct Batch::Impl {
 };
 
 Batch::Batch(const Model& model, int threads) {
-    if (threads < 0 || threads > most_threads)
-        throw InputError("batch", "number of threads", threads, text("0 (all processors) to ", most_threads));
+    if (threads < 0 || threads > max_threads)
+        throw InputError("batch", "number of threads", threads, text("0 (all processors) to ", max_threads));
     impl_ = std::make_unique<Impl>(model, threads);
 }
 

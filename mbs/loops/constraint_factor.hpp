@@ -42,8 +42,8 @@ public:
     /// read.
     /// @param x  out, size n; zero for driven coordinates
     void shortest(VectorIn y, VectorOut x);
-    /// Multipliers with G g^-1 G^T lambda = y. Where they are not unique, those of the least norm, each measured by the
-    /// length of its gradient in the inverse metric, so that units do not count. Gradients that vanish get none.
+    /// Multipliers with G g^-1 G^T lambda = y. Where they are not unique, those of the minimum norm, each measured by
+    /// the length of its gradient in the inverse metric, so that units do not count. Gradients that vanish get none.
     void multipliers(VectorIn y, VectorOut lambda);
 
 private:

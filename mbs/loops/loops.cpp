@@ -18,7 +18,7 @@ constexpr const char* in_loops = "loops";
 // What rounding leaves of an equation that is as good as met, over the size of what it compares.
 constexpr double closest = 16 * std::numeric_limits<double>::epsilon();
 // Of the forms of which the equations of one loop are made.
-constexpr std::size_t most_equations = 6;
+constexpr std::size_t max_equations = 6;
 
 bool turns(const Kinematics& kin, const PathStep& step) {
     return entry(kin.model().links(), step.coordinate).revolute;
@@ -146,7 +146,7 @@ void Loops::gradient(const Kinematics& kin, double time, VectorIn q, MatrixOut G
     magnitudes = G.cwiseAbs();
     for (const Loop& loop : loops_) {
         const FrameEnds<double> ends(kin, loop.a, loop.b);
-        std::array<UnitWrench<double>, most_equations> pairs;
+        std::array<UnitWrench<double>, max_equations> pairs;
         for (std::size_t i = 0; i < loop.equations.size(); ++i)
             pairs[i] = wrench<double>(loop, loop.equations[i], ends);
         double longest = 0;

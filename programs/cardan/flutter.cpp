@@ -33,7 +33,7 @@ namespace {
 constexpr double slowest = 0.25, fastest = 2.5;
 // Of the first torsion at rest: what flutters lies below it, what it becomes is still seen.
 constexpr double modes_up_to = 1.5;
-constexpr int most_halvings = 3;
+constexpr int max_halvings = 3;
 // By so many times as many elements a limit is sought again, in a range so wide about it.
 constexpr std::array finer_meshes{1.5, 2.0};
 constexpr double width_about = 0.15;
@@ -129,7 +129,7 @@ solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const turbine
 
     solvers::StabilityOptions options;
     options.steps = steps;
-    options.halvings = most_halvings;
+    options.halvings = max_halvings;
     options.modes = campbell_options(*a.max_frequency);
     options.modes.spin = solvers::RotorSpin::prescribed;
     options.modes.method = solvers::CampbellMethod::coleman;  // nothing depends on the azimuth

@@ -138,7 +138,7 @@ void print_air(const turbines::Machine& machine) {
 void print_operation(const turbines::Machine& machine) {
     const turbines::MachineOperation& o = machine.operation;
     if (o.rated_power > 0) std::printf("rated power   %g kW on the rotor\n", o.rated_power / 1e3);
-    if (o.min_speed > 0) std::printf("least speed   %g rpm\n", o.min_speed * units::to_rpm);
+    if (o.min_speed > 0) std::printf("minimum speed %g rpm\n", o.min_speed * units::to_rpm);
     if (o.tip_speed_ratio > 0) std::printf("tip speed     %g times the wind's below rated power\n", o.tip_speed_ratio);
     const turbines::ModelController& c = machine.controller;
     if (!c.library.empty()) std::printf("controller    %s\n", c.library.c_str());

@@ -89,8 +89,8 @@ Option add_wind_options(CommandLine& app, WindArguments& a) {
     beside.push_back(
         app.add_option("--rated-rpm", a.rated_rpm, "rotor speed from rated wind on, rev/min (default: the machine's)")
             .positive());
-    beside.push_back(app.add_option("--least-rpm", a.least_rpm,
-                                    "rotor speed at least, rev/min (default: that of the machine's controller)")
+    beside.push_back(app.add_option("--min-rpm", a.min_rpm,
+                                    "minimum rotor speed, rev/min (default: that of the machine's controller)")
                          .not_negative());
     beside.push_back(
         app.add_option("--tip-speed-ratio", a.tip_speed_ratio,
@@ -102,7 +102,7 @@ Option add_wind_options(CommandLine& app, WindArguments& a) {
 }
 
 bool WindArguments::sets_law() const {
-    return tip_speed_ratio || rated_power || rated_rpm || least_rpm > 0;
+    return tip_speed_ratio || rated_power || rated_rpm || min_rpm > 0;
 }
 
 void check_wind(const WindArguments& wind, const std::string& rpm) {
@@ -110,7 +110,7 @@ void check_wind(const WindArguments& wind, const std::string& rpm) {
     if (!rpm.empty()) throw InputError("--rpm", "value", rpm, "none beside --wind: see --schedule");
     if (!wind.schedule.empty() && wind.sets_law())
         throw InputError("--schedule", "file", wind.schedule,
-                         "none beside --rated-power, --rated-rpm, --least-rpm, --tip-speed-ratio");
+                         "none beside --rated-power, --rated-rpm, --min-rpm, --tip-speed-ratio");
 }
 
 void take_wind(turbines::Machine& machine, const WindArguments& wind, MachineOptions& options) {
@@ -129,7 +129,7 @@ turbines::OperationSettings operation_of(const WindArguments& wind) {
     turbines::OperationSettings own;
     if (wind.rated_power) own.rated_power = *wind.rated_power * 1e3;
     if (wind.rated_rpm) own.rated_rotor_speed = *wind.rated_rpm * units::rpm;
-    if (wind.least_rpm > 0) own.min_rotor_speed = wind.least_rpm * units::rpm;
+    if (wind.min_rpm > 0) own.min_rotor_speed = wind.min_rpm * units::rpm;
     own.tip_speed_ratio = wind.tip_speed_ratio;
     return own;
 }

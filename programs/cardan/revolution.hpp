@@ -38,11 +38,11 @@ inline solvers::History history_of(const System& system, std::span<const Channel
 }
 
 struct MeanAndRange {
-    double mean, least, most;
+    double mean, min, max;
 };
 inline MeanAndRange mean_and_range(const std::vector<double>& values) {
-    const auto [least, most] = std::ranges::minmax(values);
-    return {std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()), least, most};
+    const auto [min, max] = std::ranges::minmax(values);
+    return {std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()), min, max};
 }
 
 }  // namespace cardan::program

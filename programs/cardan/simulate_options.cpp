@@ -51,7 +51,7 @@ turbines::ActuatorOptions actuators_of(const ControllerArguments& a) {
         throw InputError(option, "value", a.pitch_actuator, allowed);
     actuators.pitch_frequency = 2 * pi * values[0];
     if (values.size() > 1) actuators.pitch_damping = values[1];
-    if (values.size() > 2) actuators.largest_pitch_rate = values[2] * units::degree;
+    if (values.size() > 2) actuators.max_pitch_rate = values[2] * units::degree;
     return actuators;
 }
 

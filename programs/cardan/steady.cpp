@@ -86,11 +86,11 @@ Revolution revolution(const turbines::Turbine& turbine, double speed, const Stea
 }
 
 void print(const solvers::History& history, const std::vector<std::string>& names) {
-    std::printf("\n%-40s %14s %14s %14s\n", "over a revolution", "mean", "least", "most");
+    std::printf("\n%-40s %14s %14s %14s\n", "over a revolution", "mean", "minimum", "maximum");
     for (const std::string& name : names) {
         const std::size_t i = history.index(name);
-        const auto [mean, least, most] = mean_and_range(history.values[i]);
-        std::printf("%-40s %14.6g %14.6g %14.6g   %s\n", history.channels[i].name.c_str(), mean, least, most,
+        const auto [mean, min, max] = mean_and_range(history.values[i]);
+        std::printf("%-40s %14.6g %14.6g %14.6g   %s\n", history.channels[i].name.c_str(), mean, min, max,
                     history.channels[i].units.c_str());
     }
 }

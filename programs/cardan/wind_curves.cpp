@@ -58,8 +58,8 @@ solvers::StackPanel channel_panel(std::span<const WindCurves> curves, const std:
         const char* name;
         double MeanAndRange::*of;
     };
-    constexpr std::array statistics{Statistic{"mean", &MeanAndRange::mean}, Statistic{"least", &MeanAndRange::least},
-                                    Statistic{"most", &MeanAndRange::most}};
+    constexpr std::array statistics{Statistic{"mean", &MeanAndRange::mean}, Statistic{"minimum", &MeanAndRange::min},
+                                    Statistic{"maximum", &MeanAndRange::max}};
     const std::size_t shown = curves.size() > 1 ? 1 : statistics.size();
     solvers::StackPanel out;
     double size = 0;
@@ -143,21 +143,26 @@ WindCurves read_wind_curves(const std::filesystem::path& path, std::string name)
         out.quantities[quantity] = file.read_doubles(quantity);
     const std::vector<std::string> names = file.read_strings("channels/channel_name"),
                                    units = file.read_strings("channels/channel_units");
-    const std::vector<double> mean = file.read_doubles("channels/mean"), least = file.read_doubles("channels/least"),
-                              most = file.read_doubles("channels/most");
+    // Earlier files have the second name.
+    const auto stored = [&file](const std::string& name, const std::string& before) {
+        return "channels/" + (file.has("channels/" + name) ? name : before);
+    };
+    const std::vector<double> mean = file.read_doubles("channels/mean"),
+                              min = file.read_doubles(stored("minimum", "least")),
+                              max = file.read_doubles(stored("maximum", "most"));
     for (const auto& [quantity, values] : out.quantities)
         if (values.size() != out.winds.size())
             throw FileError(path.string(), text("it holds ", values.size(), " values of ", quantity, " at ",
                                                 out.winds.size(), " winds"));
     const std::size_t count = names.size();
-    if (units.size() != count || mean.size() != count * out.winds.size() || least.size() != mean.size() ||
-        most.size() != mean.size())
+    if (units.size() != count || mean.size() != count * out.winds.size() || min.size() != mean.size() ||
+        max.size() != mean.size())
         throw FileError(path.string(), "its channels are not complete");
     for (std::size_t i = 0; i < count; ++i) {
         out.channels.push_back({.name = names[i], .units = units[i], .long_name = names[i]});
         std::vector<MeanAndRange>& own = out.values.emplace_back();
         for (std::size_t k = 0; k < out.winds.size(); ++k)
-            own.push_back({mean[k * count + i], least[k * count + i], most[k * count + i]});
+            own.push_back({mean[k * count + i], min[k * count + i], max[k * count + i]});
     }
     return out;
 }

@@ -28,7 +28,7 @@ bool is_wind_result(const std::filesystem::path& path);
 /// @throws FileError
 WindCurves read_wind_curves(const std::filesystem::path& path, std::string name);
 
-/// Power, thrust, rotor speed, pitch, coefficients, and of channels the mean, of a single run also least and most.
+/// Power, thrust, rotor speed, pitch, coefficients, and of channels the mean, of a single run also minimum and maximum.
 /// @param channels  by name; empty: deflection, twist and root moment of blade 1, as far as they are there
 /// @param path      its ending selects the format
 /// @throws InputError for a channel that none has, or for fewer than two winds

@@ -81,8 +81,8 @@ struct Statistic {
     const char* name;
     double MeanAndRange::*of;
 };
-constexpr std::array statistics{Statistic{"mean", &MeanAndRange::mean}, Statistic{"least", &MeanAndRange::least},
-                                Statistic{"most", &MeanAndRange::most}};
+constexpr std::array statistics{Statistic{"mean", &MeanAndRange::mean}, Statistic{"minimum", &MeanAndRange::min},
+                                Statistic{"maximum", &MeanAndRange::max}};
 
 std::vector<double> winds_of(const WindResults& results) {
     std::vector<double> winds;
@@ -132,11 +132,11 @@ void print(const WindResults& results) {
                     quantity::thrust.shown(p), quantity::torque.shown(p), p.power_coefficient, p.thrust_coefficient,
                     p.tip_speed_ratio);
     for (std::size_t i = 0; i < results.channels.size(); ++i) {
-        std::printf("\n%s [%s]: mean, least, most\n", results.channels[i].name.c_str(),
+        std::printf("\n%s [%s]: mean, minimum, maximum\n", results.channels[i].name.c_str(),
                     results.channels[i].units.c_str());
         for (std::size_t k = 0; k < results.points.size(); ++k) {
             const MeanAndRange& at = results.values[k][i];
-            std::printf("%8.3f %14.6g %14.6g %14.6g\n", results.points[k].operation.wind, at.mean, at.least, at.most);
+            std::printf("%8.3f %14.6g %14.6g %14.6g\n", results.points[k].operation.wind, at.mean, at.min, at.max);
         }
     }
 }
@@ -239,8 +239,8 @@ void draw_sections(const WindResults& results, const std::string& prefix) {
     stack.x_label = "distance from the hub's centre in m";
     stack.x_low = 0;
     stack.x_high = points.front().sections.back().position;
-    constexpr std::size_t most = 6;
-    const std::size_t count = std::min(most, points.size());
+    constexpr std::size_t max = 6;
+    const std::size_t count = std::min(max, points.size());
     for (const SectionQuantity& q : section_quantities) {
         solvers::StackPanel& one = stack.panels.emplace_back(solvers::StackPanel{q.label, {}});
         for (std::size_t k = 0; k < count; ++k) {
@@ -264,7 +264,7 @@ void draw_coefficients(const std::string& title, const AeroBlade& blade, const R
     stack.x_low = 2;
     stack.x_high = 14;
     stack.panels = {{"power coefficient", {}}, {"thrust coefficient", {}}};
-    constexpr double least_shown = -0.1;
+    constexpr double min_shown = -0.1;
     for (const double degrees_of_pitch : {-2.0, 0.0, 2.0, 5.0, 10.0, 20.0}) {
         const std::string label = text("pitch ", degrees_of_pitch, " deg");
         solvers::StackCurve of_power{label, {}, {}}, of_thrust{label, {}, {}};
@@ -273,7 +273,7 @@ void draw_coefficients(const std::string& title, const AeroBlade& blade, const R
             const RotorCoefficients at =
                 rotor_coefficients(blade, blades, cone, ratio, degrees_of_pitch * units::degree, options);
             of_power.x.push_back(ratio);
-            of_power.y.push_back(at.power > least_shown ? at.power : std::numeric_limits<double>::quiet_NaN());
+            of_power.y.push_back(at.power > min_shown ? at.power : std::numeric_limits<double>::quiet_NaN());
             of_thrust.x.push_back(ratio);
             of_thrust.y.push_back(at.thrust);
         }

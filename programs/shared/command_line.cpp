@@ -6,6 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <array>
+#include <iostream>
+
 namespace cardan::program {
 
 namespace {
@@ -35,8 +39,8 @@ Option& Option::one_of(const std::vector<std::string>& allowed) {
     return *this;
 }
 
-Option& Option::range(int least, int most) {
-    option_->check(CLI::Range(least, most));
+Option& Option::range(int min, int max) {
+    option_->check(CLI::Range(min, max));
     return *this;
 }
 
@@ -109,7 +113,7 @@ bool Option::given() const {
 CommandLine::CommandLine(const std::string& description) : app_(std::make_shared<CLI::App>(description)) {}
 
 void CommandLine::remember(const std::string& name, std::function<void(Words&)> value) {
-    if (name.starts_with("--")) told_.push_back(std::move(value));
+    if (name.starts_with("--")) writers_.push_back(std::move(value));
 }
 
 Option CommandLine::add_option(const std::string& name, int& target, const std::string& what) {
@@ -170,7 +174,7 @@ Option CommandLine::add_flag(const std::string& name, bool& target, const std::s
 
 std::vector<std::string> CommandLine::words() const {
     Words all;
-    for (const auto& tell : told_) tell(all);
+    for (const auto& write : writers_) write(all);
     return all;
 }
 
@@ -203,13 +207,37 @@ void refuse_empty_words(int argc, char** argv) {
     }
 }
 
+struct RenamedOption {
+    std::string_view before, now;
+};
+constexpr std::array renamed_options{RenamedOption{"--least-rpm", "--min-rpm"},
+                                     RenamedOption{"--steady-profiles", "--steady-airfoils"}};
+
+// The words with the options' names of today. Results hold the command lines of earlier versions, for `cardan repeat`.
+std::vector<std::string> with_present_names(int argc, char** argv) {
+    std::vector<std::string> words(argv, argv + argc);
+    for (std::string& word : words) {
+        const std::size_t end = std::min(word.find('='), word.size());
+        const auto found =
+            std::ranges::find(renamed_options, std::string_view(word).substr(0, end), &RenamedOption::before);
+        if (found == renamed_options.end()) continue;
+        std::cerr << "note: " << found->before << " is " << found->now << " now\n";
+        word.replace(0, end, found->now);
+    }
+    return words;
+}
+
 }  // namespace
 
 int CommandLine::parse(int argc, char** argv) {
     app_->set_version_flag("--version", std::string(version()));
+    const std::vector<std::string> words = with_present_names(argc, argv);
+    std::vector<const char*> pointers;
+    pointers.reserve(words.size());
+    for (const std::string& word : words) pointers.push_back(word.c_str());
     try {
         refuse_empty_words(argc, argv);
-        app_->parse(argc, argv);
+        app_->parse(argc, pointers.data());
     } catch (const CLI::ParseError& error) {
         return app_->exit(error) == 0 ? 0 : 2;
     }

@@ -25,7 +25,7 @@ public:
 
     Option& required();
     Option& one_of(const std::vector<std::string>& allowed);
-    Option& range(int least, int most);
+    Option& range(int min, int max);
     /// Refuses numbers that are out of range: InputError, thrown by CommandLine::parse().
     Option& finite();
     Option& positive();
@@ -79,7 +79,8 @@ public:
     /// The name of the subcommand that was given.
     std::string subcommand();
 
-    /// Reads the command line.
+    /// Reads the command line. Names that options had in earlier versions are read as well, and a note says the new
+    /// ones.
     /// @return exit code to end with (0 after --help and --version, 2 for wrong usage), -1: go on
     [[nodiscard]] int parse(int argc, char** argv);
     /// Options with what their targets hold now, each as one word: "--rpm=12". Flags that are not set, what is empty
@@ -95,8 +96,8 @@ private:
     explicit CommandLine(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
     void remember(const std::string& name, std::function<void(Words&)> value);
 
-    std::shared_ptr<CLI::App> app_;                  ///< a subcommand shares its parent's life
-    std::vector<std::function<void(Words&)>> told_;  ///< what words() asks
+    std::shared_ptr<CLI::App> app_;                     ///< a subcommand shares its parent's life
+    std::vector<std::function<void(Words&)>> writers_;  ///< of words()
 };
 
 }  // namespace cardan::program

@@ -134,14 +134,14 @@ void print_notes(const std::vector<turbines::FileNote>& notes, MachineOptions& o
 }
 
 void print_left_out(const MachineOptions& options) {
-    constexpr std::size_t most = 8;
+    constexpr std::size_t max = 8;
     std::vector<std::string> names;
     for (const turbines::FileNote& note : options.left_out)
         if (std::ranges::find(names, note.keyword) == names.end()) names.push_back(note.keyword);
     if (names.empty()) return;
     std::cout << "left out, though the model asks for it: ";
-    for (std::size_t i = 0; i < std::min(most, names.size()); ++i) std::cout << (i > 0 ? ", " : "") << names[i];
-    if (names.size() > most) std::cout << " and " << names.size() - most << " more entries";
+    for (std::size_t i = 0; i < std::min(max, names.size()); ++i) std::cout << (i > 0 ? ", " : "") << names[i];
+    if (names.size() > max) std::cout << " and " << names.size() - max << " more entries";
     std::cout << (options.notes ? "; see the notes\n" : "; --notes says why\n");
 }
 
@@ -297,9 +297,9 @@ double usual_frequency(const turbines::Machine& machine, const MachineOptions& o
     return turbines::usual_frequency(machine.description, assembly_options(machine, options));
 }
 
-turbines::PreparedTurbine ready_machine(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
+turbines::PreparedTurbine ready_machine(const turbines::Machine& machine, MachineOptions& options, double max_hz,
                                         double rotor_speed) {
-    turbines::PreparedTurbine ready = turbines::assembled(machine, assembly_options(machine, options), largest_hz,
+    turbines::PreparedTurbine ready = turbines::assembled(machine, assembly_options(machine, options), max_hz,
                                                           rotor_speed, remarks_printed(options.notes));
     options.blade_elements = ready.mesh.blade_elements;
     options.tower_elements = ready.mesh.tower_elements;

@@ -63,9 +63,9 @@ void keep_taken(const turbines::MachineSettings& taken, MachineOptions& options)
 turbines::Report remarks_printed(bool all_notes);
 
 /// Chooses the mesh, assembles, prints what the assembly has to say. The options then hold the numbers of elements.
-/// @param largest_hz   frequencies up to here shall be right
+/// @param max_hz   frequencies up to here shall be right
 /// @param rotor_speed  highest, rad/s
-turbines::PreparedTurbine ready_machine(const turbines::Machine& machine, MachineOptions& options, double largest_hz,
+turbines::PreparedTurbine ready_machine(const turbines::Machine& machine, MachineOptions& options, double max_hz,
                                         double rotor_speed);
 
 /// Beams, pitch, gravity and damping.

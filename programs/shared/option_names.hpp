@@ -50,7 +50,7 @@ inline std::string in_options(std::string text) {
         {"CampbellSettings::winds", "--wind"},
         {"OperationSettings::rated_power", "--rated-power KW"},
         {"OperationSettings::rated_rotor_speed", "--rated-rpm"},
-        {"OperationSettings::min_rotor_speed", "--least-rpm"},
+        {"OperationSettings::min_rotor_speed", "--min-rpm"},
         {"WindRunOptions::winds", "--wind"},
         {"LinearModelSettings::wind", "--wind"},
         {"PartModesSettings::max_frequency_hz", "--max-frequency"},

@@ -117,12 +117,12 @@ inline bool check(const char* what, double error, double allowed) {
 /// most that kinetic energy, potential energy or the work of the drives range over in a run, J; at least 1 J, for a
 /// machine at rest exchanges nothing.
 inline double exchanged_energy(const solvers::History& history) {
-    double most = 1;
+    double max = 1;
     for (const char* name : {"kinetic energy", "potential energy", "energy from drives"}) {
         const auto [low, high] = std::ranges::minmax(history[name]);
-        most = std::max(most, high - low);
+        max = std::max(max, high - low);
     }
-    return most;
+    return max;
 }
 
 /// The energy balance: change of kinetic energy against the work of all forces, as the integration has added it up.
@@ -134,7 +134,7 @@ inline bool check_energy(const solvers::EnergyBalance& end, double scale, double
         "energy, kJ: kinetic %.3f, potential %.3f, dissipated %.3f, by drives %.3f, by loads %.3f, error %.2e\n",
         end.kinetic / 1e3, end.potential / 1e3, end.dissipated / 1e3, end.drives / 1e3, end.loads / 1e3,
         end.error / 1e3);
-    return check(parked ? "energy lost by the integration, of the most that is exchanged"
+    return check(parked ? "energy lost by the integration, of the maximum exchanged"
                         : "energy lost by the integration, of the largest kinetic energy",
                  end.error / scale, allowed);
 }
@@ -151,10 +151,10 @@ inline bool check_field_energy(const solvers::EnergyBalance& end, const solvers:
 /// Largest departure of the rotor speed from that of the start up to a time, of that speed.
 inline double speed_drift(const solvers::History& history, double until) {
     const std::vector<double>& speed = history["RotSpeed"];
-    double most = 0;
+    double max = 0;
     for (std::size_t i = 0; i < speed.size() && history.time[i] <= until; ++i)
-        most = std::max(most, std::abs(speed[i] / speed.front() - 1));
-    return most;
+        max = std::max(max, std::abs(speed[i] / speed.front() - 1));
+    return max;
 }
 
 /// Steps, evaluations and the speed of the computation.

@@ -35,9 +35,9 @@ inline void add_run_options(CommandLine& app, RunArguments& a) {
 inline void check_run_options(const RunArguments& a) {
     require_positive("--duration", "value", a.duration);
     require_positive("--step", "value", a.step);
-    constexpr double most = 1e8;
-    if (a.duration / a.step > most)
-        throw InputError("--duration", "steps of the output", a.duration / a.step, text("at most ", most));
+    constexpr double max = 1e8;
+    if (a.duration / a.step > max)
+        throw InputError("--duration", "steps of the output", a.duration / a.step, text("at most ", max));
     require_positive("--tolerance", "relative tolerance", a.tolerance);
     if (a.order < 0 || a.order > 5) throw InputError("--order", "highest order", a.order, "0 ... 5");
 }

@@ -73,7 +73,7 @@ Advance AtlasIntegrator::advance(double time) {
 void AtlasIntegrator::change() {
     const Checkpoint here = integrator_->checkpoint();
     std::size_t best = now_;
-    double most = quality(now_, here.q);
+    double max = quality(now_, here.q);
     ChartState state;
     for (std::size_t k = 0; k < charts_.size(); ++k) {
         if (k == now_) continue;
@@ -83,9 +83,9 @@ void AtlasIntegrator::change() {
         } catch (const NumericalError&) {
             continue;  // it is singular here, or does not reach this place
         }
-        if (const double value = quality(k, there.q); value > most) {
+        if (const double value = quality(k, there.q); value > max) {
             best = k;
-            most = value;
+            max = value;
             state = std::move(there);
         }
     }

@@ -30,11 +30,11 @@ StateMatrices weighted(const Items& items, const Vector& weight) {
 }  // namespace
 
 std::vector<StateMatrices> fourier_coefficients(const LinearModel& model, int harmonics) {
-    const auto count = static_cast<int>(model.samples.size()), most = (count - 1) / 2;
+    const auto count = static_cast<int>(model.samples.size()), max = (count - 1) / 2;
     if (count == 0) throw InputError(in_linear_model, "number of azimuths", count, ">= 1");
-    if (harmonics > most)
-        throw InputError(in_linear_model, "harmonics", harmonics, text("at most ", most, " from ", count, " azimuths"));
-    if (harmonics < 0) harmonics = most;
+    if (harmonics > max)
+        throw InputError(in_linear_model, "harmonics", harmonics, text("at most ", max, " from ", count, " azimuths"));
+    if (harmonics < 0) harmonics = max;
     Matrix weights(count, 2 * harmonics + 1);
     for (int s = 0; s < count; ++s)
         weights.row(s) = fourier_weights(entry(model.samples, s).azimuth, harmonics, count).transpose();

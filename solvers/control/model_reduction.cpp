@@ -194,15 +194,15 @@ public:
         }
     }
     Matrix largest() const {
-        Matrix most = Matrix::Zero(G_[0].rows(), G_[0].cols());
-        for (const ComplexMatrix& G : G_) most = most.cwiseMax(G.cwiseAbs());
-        return most;
+        Matrix max = Matrix::Zero(G_[0].rows(), G_[0].cols());
+        for (const ComplexMatrix& G : G_) max = max.cwiseMax(G.cwiseAbs());
+        return max;
     }
     Matrix largest_difference(const StateMatrices& other) const {
         TransferFunction G(other);
-        Matrix most = Matrix::Zero(G_[0].rows(), G_[0].cols());
-        for (std::size_t i = 0; i < s_.size(); ++i) most = most.cwiseMax((G_[i] - G.at(s_[i])).cwiseAbs());
-        return most;
+        Matrix max = Matrix::Zero(G_[0].rows(), G_[0].cols());
+        for (std::size_t i = 0; i < s_.size(); ++i) max = max.cwiseMax((G_[i] - G.at(s_[i])).cwiseAbs());
+        return max;
     }
 
 private:
@@ -300,18 +300,18 @@ Reduction by_error(const StateMatrices& stable, double sigma, const BalancedOpti
         Reduction good = at_order(all.system.A.rows());
         best = std::min(best, good.error());
         if (!(good.error() <= options.error)) continue;
-        for (Index least = 0; least < good.order;) {
-            const Index middle = (least + good.order) / 2;
+        for (Index min = 0; min < good.order;) {
+            const Index middle = (min + good.order) / 2;
             Reduction tried = at_order(middle);
             if (tried.error() <= options.error)
                 good = std::move(tried);
             else
-                least = middle + 1;
+                min = middle + 1;
         }
         return good;
     }
     throw NumericalError(text("balanced truncation: no order reaches the error ", options.error, " up to ",
-                              options.max_frequency_hz, " Hz (the least is ", best, "); ask for a larger one"));
+                              options.max_frequency_hz, " Hz (the minimum is ", best, "); ask for a larger one"));
 }
 
 }  // namespace

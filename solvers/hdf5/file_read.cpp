@@ -65,8 +65,8 @@ struct Source {
             static_cast<std::size_t>(impl.ok(H5Sget_simple_extent_npoints(space.get()), what, "be read"));
         double values = 1;
         for (const hsize_t n : extents()) values *= static_cast<double>(n);
-        constexpr double most = 1e15;
-        if (values > most) refuse(text(values, " values do not fit into memory"));
+        constexpr double max = 1e15;
+        if (values > max) refuse(text(values, " values do not fit into memory"));
         return points;
     }
 

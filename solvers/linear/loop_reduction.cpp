@@ -131,17 +131,17 @@ std::vector<int> independent_on_the_way(const std::vector<Linearisation>& way, c
         if (std::vector<int> choice = independent_coordinates(at, coordinates, preferred);
             std::ranges::find(choices, choice) == choices.end())
             choices.push_back(std::move(choice));
-    double most = 0;
+    double max = 0;
     std::vector<int> best;
     for (std::vector<int>& choice : choices) {
-        double least = 1;
+        double min = 1;
         for (const Linearisation& other : way)
-            least = std::min(least, following_quality(other.constraints, coordinates, choice));
-        if (least <= most) continue;
-        most = least;
+            min = std::min(min, following_quality(other.constraints, coordinates, choice));
+        if (min <= max) continue;
+        max = min;
         best = std::move(choice);
     }
-    if (most < dead)
+    if (max < dead)
         throw NumericalError(
             "reduction of loops: no choice of independent coordinates passes the dead points of the loops on the way");
     return best;

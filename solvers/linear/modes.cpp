@@ -36,7 +36,7 @@ double residual(const SecondOrderSystem& system, const Vector& d, Complex lambda
 constexpr double largest_rest = 0.01;  // of the equations' terms
 
 // Below this size the dense solver takes no longer for few modes than for all.
-constexpr Eigen::Index least_for_few = 40;
+constexpr Eigen::Index min_for_few = 40;
 // Values just beyond the limit are found as well, so that rounding does not decide.
 constexpr double beyond = 1.01;
 
@@ -107,7 +107,7 @@ std::size_t ModeSolver::solve(const SecondOrderSystem& system, double largest) {
     const bool few = largest < doubtful_ratio_of_modes * scale && largest < too_many_;
     if (!few || !has_many_states(system) || !solve_motions(system, scale, largest)) {
         shift(system, scale);
-        if (!few || n < least_for_few || states_ > 0 || !solve_few(scale, largest)) solve_all(system, scale);
+        if (!few || n < min_for_few || states_ > 0 || !solve_few(scale, largest)) solve_all(system, scale);
     }
     std::erase_if(found_, [&](const Found& found) { return std::abs(found.eigenvalue) > largest; });
     for (Found& found : found_)
@@ -248,7 +248,7 @@ bool ModeSolver::solve_few(double scale, double largest) {
         y << b, x.head(n) + mode_shift * b;
     };
     DominantOptions options;
-    options.least = 1 / (beyond * largest / scale + mode_shift);
+    options.min = 1 / (beyond * largest / scale + mode_shift);
     options.most = static_cast<int>(n);
     const DominantEigen found = dominant_eigenvalues(apply, 2 * n, options);
     if (!found.complete) {

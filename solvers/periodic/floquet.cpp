@@ -209,10 +209,10 @@ Analysis::Motion Analysis::motion(const ProductEigen& eigen, const Representativ
 
 // Its principal harmonic is fast, if that has a fifteenth of the energy. What grows is wanted, however fast.
 bool Analysis::fast(const Motion& motion) const {
-    constexpr double least_share = 1.0 / 15;
+    constexpr double min_share = 1.0 / 15;
     const double limit = followed * options_.per_period;
     if (inertia_.empty() || motion.exponent.real() > options_.tolerance * limit) return false;
-    return least_share * mean_square_frequency(inertia_, motion.vectors) > limit * limit;
+    return min_share * mean_square_frequency(inertia_, motion.vectors) > limit * limit;
 }
 
 // Sets p of motions, all at once. From one factor to the next their vectors are known; between, they are integrated.
@@ -361,9 +361,9 @@ Floquet Analysis::compute() {
         result.steps = grid_.steps * grid_.samples * parts;
         // Half the steps leave a small part of an error. What does not fall comes from rounding in an ill-conditioned
         // mode (a free displacement that unbalance holds weakly), and steps to the limit would not change it.
-        constexpr double least_gain = 4;
+        constexpr double min_gain = 4;
         const double left = worst(result.modes);
-        const bool enough = left == 0 || left * least_gain > before;
+        const bool enough = left == 0 || left * min_gain > before;
         before = left;
         if (!refine || enough || 2 * result.steps > options_.max_steps) break;
     }

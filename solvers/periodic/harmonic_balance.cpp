@@ -38,9 +38,9 @@ int usual_samples(const RotorMap* rotor, int harmonics) {
 
 Balance::Balance(const System& system, int spin, const PeriodicOptions& options)
     : options_(options), equations_(system, spin, options, in_harmonic_balance) {
-    const int least = 2 * options.harmonics + 1;
-    if (options.samples < 0 || (options.samples > 0 && options.samples < least))
-        throw InputError(in_harmonic_balance, "number of samples", options.samples, text(">= ", least, ", or 0"));
+    const int min = 2 * options.harmonics + 1;
+    if (options.samples < 0 || (options.samples > 0 && options.samples < min))
+        throw InputError(in_harmonic_balance, "number of samples", options.samples, text(">= ", min, ", or 0"));
     hold();
     x_ = equations_.start(options.harmonics);
     // Both know blades by their coordinates; multipliers would have to change places like these.
@@ -176,14 +176,14 @@ bool Balance::mean_step() {
 // Steps with the mean Jacobian that learn from one another, where the equations change so much with the azimuth that a
 // single one is no use.
 bool Balance::accelerated_steps() {
-    constexpr int most = 60, depth = 10, useless_steps = 2 * depth;
+    constexpr int max = 60, depth = 10, useless_steps = 2 * depth;
     constexpr double worth_it = 0.9;
     const double start = norm(R_);
     Anderson anderson(x_.size(), depth);
     Matrix x = x_, R = R_, dx;
     double best = start;
     int best_at = 0;
-    for (int k = 0; k < most && k <= best_at + useless_steps && largest(R) > options_.tolerance; ++k) {
+    for (int k = 0; k < max && k <= best_at + useless_steps && largest(R) > options_.tolerance; ++k) {
         if (!mean_->step(R, 0, dx, true)) break;
         const Vector next = anderson.next(x.reshaped(), dx.reshaped());
         x = next.reshaped(x.rows(), x.cols());

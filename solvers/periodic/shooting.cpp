@@ -165,9 +165,9 @@ double Shooting::miss() const {
 Vector Shooting::newton_step() {
     const Matrix J = transition_ - Matrix::Identity(start_.size(), start_.size());
     const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const double least = 1e-9 * std::max(1.0, transition_.cwiseAbs().maxCoeff());
+    const double min = 1e-9 * std::max(1.0, transition_.cwiseAbs().maxCoeff());
     const Vector& sizes = svd.singularValues();
-    const Index rank = (sizes.array() > least).count(), missing = sizes.size() - rank;
+    const Index rank = (sizes.array() > min).count(), missing = sizes.size() - rank;
     note_ = missing == 0 ? ""
                          : text(missing,
                                 " Floquet multiplier(s) of 1: a motion that nothing holds, or a natural frequency at a "

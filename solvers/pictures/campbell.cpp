@@ -100,10 +100,9 @@ public:
 
     std::string damping_panel() const {
         const double low = std::min(0.0, 1.1 * zeta_min_), high = zeta_max_ > 1e-6 ? 1.1 * zeta_max_ : 1.0;
-        const bool decades = options_.log_damping && zeta_least_ > 0 && zeta_max_ > 30 * zeta_least_;
-        const std::string range = decades
-                                      ? text("set logscale y\nset yrange [", 0.8 * zeta_least_, ":", 1.3 * zeta_max_)
-                                      : text("set yrange [", low, ":", high);
+        const bool decades = options_.log_damping && zeta_min_ > 0 && zeta_max_ > 30 * zeta_min_;
+        const std::string range = decades ? text("set logscale y\nset yrange [", 0.8 * zeta_min_, ":", 1.3 * zeta_max_)
+                                          : text("set yrange [", low, ":", high);
         std::string s = text("unset title\n", x_range(), range, "]\nset format y '%g'\nset ylabel 'damping ratio, %'\n",
                              x_label_command(true), "unset key\n");
         std::string plots;
@@ -140,7 +139,7 @@ private:
             const double f = d.damped_hz(branch, i), zeta = damping(d, branch, i);
             if (std::isfinite(f)) f_max_ = std::max(f_max_, f);
             if (!std::isfinite(zeta)) continue;
-            zeta_least_ = std::min(zeta_least_, 100 * zeta);
+            zeta_min_ = std::min(zeta_min_, 100 * zeta);
             zeta_min_ = std::min(zeta_min_, 100 * zeta);
             zeta_max_ = std::max(zeta_max_, 100 * zeta);
         }
@@ -247,15 +246,15 @@ private:
     std::vector<Turning> turns_;
     double low_ = 0, high_ = 0;  // of the axis
     double f_max_ = 0, zeta_min_ = 0, zeta_max_ = 0;
-    double zeta_least_ = std::numeric_limits<double>::infinity();
+    double zeta_min_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
 
 void plot(const Campbell& diagram, const std::filesystem::path& path, const CampbellPlotOptions& options) {
     require_points(diagram);
-    constexpr std::size_t most = 4;
-    if (options.others.size() > most)
+    constexpr std::size_t max = 4;
+    if (options.others.size() > max)
         throw InputError("Campbell diagrams over each other", "others", options.others.size(), "at most 4");
     for (const OtherDiagram& other : options.others) {
         require_points(*other.diagram);

@@ -60,8 +60,8 @@ Box bounds(const Campbell& d, double margin) {
 // The largest of 1, 2, 5, 10, 20 ... that leaves at least six steps.
 double tick_step(double length) {
     if (!(length > 0)) return 1;
-    const double most = length / 6, power = std::pow(10, std::floor(std::log10(most)));
-    return power * (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1);
+    const double max = length / 6, power = std::pow(10, std::floor(std::log10(max)));
+    return power * (max >= 5 * power ? 5 : max >= 2 * power ? 2 : 1);
 }
 
 }  // namespace

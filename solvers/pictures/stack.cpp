@@ -23,11 +23,11 @@ std::size_t letters(std::string_view shown) {
         std::count_if(shown.begin(), shown.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-std::string shortened(std::string shown, std::size_t most) {
-    if (letters(shown) <= most) return shown;
+std::string shortened(std::string shown, std::size_t max) {
+    if (letters(shown) <= max) return shown;
     std::size_t end = 0;
     for (std::size_t seen = 0; end < shown.size(); ++end)
-        if ((shown[end] & 0xC0) != 0x80 && ++seen == most) break;
+        if ((shown[end] & 0xC0) != 0x80 && ++seen == max) break;
     return shown.substr(0, end) + "…";
 }
 

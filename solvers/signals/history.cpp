@@ -30,7 +30,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 // Names and aliases next to what was asked for.
 std::string resembling(const std::vector<Channel>& channels, std::string_view wanted) {
-    constexpr std::size_t most = 8;
+    constexpr std::size_t max = 8;
     std::vector<std::pair<std::size_t, const std::string*>> near;
     for (const Channel& channel : channels)
         for (const std::string* name : {&channel.name, &channel.alias})
@@ -38,9 +38,9 @@ std::string resembling(const std::vector<Channel>& channels, std::string_view wa
     const auto by_distance = [](const auto& a, const auto& b) { return a.first < b.first; };
     std::stable_sort(near.begin(), near.end(), by_distance);
     std::string names;
-    for (std::size_t i = 0; i < std::min(most, near.size()); ++i)
+    for (std::size_t i = 0; i < std::min(max, near.size()); ++i)
         names += text(i == 0 ? "" : ", ", "'", *near[i].second, "'");
-    return near.size() > most ? text(names, " ... (", channels.size(), " channels in all)") : names;
+    return near.size() > max ? text(names, " ... (", channels.size(), " channels in all)") : names;
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ void Integrator::check_options(double time) const {
                            std::pair{"fixed step [s]", options_.fixed_step}};
     for (const auto& [name, step] : steps) require_not_negative(in_integration, name, step);
     for (const auto& [name, step] : steps)
-        if (const double least = std::max(1e-12, resolution(time)); step > 0 && step < least)
-            throw InputError(in_integration, name, step, text("0, or >= ", least, ", which the clock can tell"));
+        if (const double min = std::max(1e-12, resolution(time)); step > 0 && step < min)
+            throw InputError(in_integration, name, step, text("0, or >= ", min, ", which the clock can tell"));
     if (options_.max_step > 0 && options_.fixed_step > options_.max_step)
         throw InputError(in_integration, "fixed step [s]", options_.fixed_step,
                          text("at most the largest step, ", options_.max_step));

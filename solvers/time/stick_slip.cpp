@@ -71,11 +71,11 @@ public:
         for (std::size_t i = 0; i <= all_.size(); ++i) {
             const Vector& lambda = scene.evaluate().lambda;
             const Contact* worst = nullptr;
-            double most = rounding;
+            double max = rounding;
             for (const Contact& contact : all_)
                 if (const double over = -contact.reserve(lambda) / contact.own.static_force;
-                    contact.sticks() && over > most) {
-                    most = over;
+                    contact.sticks() && over > max) {
+                    max = over;
                     worst = &contact;
                 }
             if (!worst) return;

@@ -8,9 +8,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text = fuzz::text_of(data, size);
     fuzz::try_it([&] {
         const FileOperation operation = operation_of(ControllerFile(text, "DISCON.IN"));
-        for (const double number : {operation.rated_power, operation.least_speed, operation.tip_speed_ratio})
+        for (const double number : {operation.rated_power, operation.min_rotor_speed, operation.tip_speed_ratio})
             fuzz::require_finite(number);
-        for (const PitchAtWind& one : operation.least_pitch) fuzz::require_finite(one.wind + one.pitch);
+        for (const PitchAtWind& one : operation.min_pitch) fuzz::require_finite(one.wind + one.pitch);
     });
     fuzz::try_it([&] {
         for (const PitchAt& one : minimum_pitch(ControllerFile(text, "DISCON.IN")))

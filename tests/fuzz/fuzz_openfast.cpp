@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 (void)assemble(machine.description, {.tower_elements = 1, .blade_elements = 1});
                 fuzz::must_succeed([&] { (void)to_yaml(machine.description); });  // finite, for one
                 for (const double number : {machine.rotor_speed, machine.pitch, machine.operation.rated_power,
-                                            machine.operation.least_speed, machine.gravity})
+                                            machine.operation.min_rotor_speed, machine.gravity})
                     fuzz::require_finite(number);
             });
     };

@@ -53,7 +53,7 @@ std::optional<HeavySymmetricTop::SteadyPrecession> HeavySymmetricTop::steady_pre
     return SteadyPrecession{2.0 * mgl_ / sum, fast};
 }
 
-double HeavySymmetricTop::least_spin(double theta) const {
+double HeavySymmetricTop::min_spin(double theta) const {
     return 2.0 * std::sqrt(a_ * mgl_ * std::max(0.0, std::cos(theta))) / c_;
 }
 

@@ -26,7 +26,7 @@ public:
 
     /// Least |omega3| of steady precession at theta, rad/s: 2 sqrt(A m g l cos(theta)) / C; zero below the horizontal.
     /// At theta = 0 it is the limit of stability of the sleeping top.
-    double least_spin(double theta) const;
+    double min_spin(double theta) const;
 
     /// A state; psi and phi are cyclic and do not appear. theta in (0, pi).
     struct State {

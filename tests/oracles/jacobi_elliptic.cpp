@@ -14,15 +14,15 @@ JacobiElliptic jacobi_elliptic(double u, double k) {
         const double sech = 1.0 / std::cosh(u);
         return {std::atan(std::sinh(u)), std::tanh(u), sech, sech};
     }
-    constexpr std::size_t most_levels = 40;
-    std::array<double, most_levels> a{};
-    std::array<double, most_levels> c{};
+    constexpr std::size_t max_levels = 40;
+    std::array<double, max_levels> a{};
+    std::array<double, max_levels> c{};
     const double k_prime_squared = (1.0 - k) * (1.0 + k);
     a[0] = 1.0;
     c[0] = k;
     double b = std::sqrt(k_prime_squared);
     std::size_t n = 0;
-    while (std::abs(c[n]) > std::numeric_limits<double>::epsilon() * a[n] && n + 1 < most_levels) {
+    while (std::abs(c[n]) > std::numeric_limits<double>::epsilon() * a[n] && n + 1 < max_levels) {
         a[n + 1] = 0.5 * (a[n] + b);
         c[n + 1] = 0.5 * (a[n] - b);
         b = std::sqrt(a[n] * b);

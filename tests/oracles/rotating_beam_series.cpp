@@ -14,7 +14,7 @@ double RotatingBeamSeries::root_determinant(double lambda) const {
     const Real eta2 = static_cast<Real>(eta) * static_cast<Real>(eta);
     const Real reach = 1.0L + static_cast<Real>(hub_radius);
     const Real lambda_l = lambda;
-    constexpr int most_terms = 2000;
+    constexpr int max_terms = 2000;
 
     // Deflection and the second condition (slope or curvature) at z = 1, for the series that starts with 1 and with z.
     std::array<std::array<Real, 2>, 2> at_root{};
@@ -25,7 +25,7 @@ double RotatingBeamSeries::root_determinant(double lambda) const {
         Real slope = static_cast<Real>(start);
         Real curvature = 0.0L;
         int small = 0;
-        for (int n = 0; n < most_terms && small < 8; ++n) {
+        for (int n = 0; n < max_terms && small < 8; ++n) {
             const Real k = n;
             const Real right = eta2 * (reach * (k + 1) * (k + 1) * a[1] - 0.5L * k * (k + 1) * a[0]) + lambda_l * a[0];
             const Real next = right / ((k + 1) * (k + 2) * (k + 3) * (k + 4));

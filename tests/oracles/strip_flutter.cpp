@@ -100,7 +100,7 @@ Eigen::VectorXcd StripFlutter::at_reduced_frequency(const Deficiency& C, double 
     return solver.eigenvalues();
 }
 
-FlutterPoint StripFlutter::flutter(const Deficiency& C, double largest_frequency, double least_k) const {
+FlutterPoint StripFlutter::flutter(const Deficiency& C, double largest_frequency, double min_k) const {
     constexpr double step = 0.002;
     const auto nearest = [](const Eigen::VectorXcd& values, Complex wanted) {
         return *std::min_element(values.begin(), values.end(),
@@ -108,7 +108,7 @@ FlutterPoint StripFlutter::flutter(const Deficiency& C, double largest_frequency
     };
     std::vector<FlutterPoint> found;
     Eigen::VectorXcd before = at_reduced_frequency(C, 2.5);
-    for (double k = 2.5 - step; k > least_k; k -= step) {
+    for (double k = 2.5 - step; k > min_k; k -= step) {
         const Eigen::VectorXcd now = at_reduced_frequency(C, k);
         for (const Complex mu : before) {
             const Complex next = nearest(now, mu);

@@ -57,9 +57,9 @@ public:
 
     /// The lowest speed at which a motion below a frequency oscillates for ever. k-method: at a given k the motion with
     /// frequency omega obeys (M + A(k)) x = mu K x, mu = (1 + i g) / omega^2; it lasts where g = 0, which is looked for
-    /// by bisection from k = 2.5 down to `least_k`.
+    /// by bisection from k = 2.5 down to `min_k`.
     /// @throws std::runtime_error if there is none
-    FlutterPoint flutter(const Deficiency& C, double largest_frequency, double least_k = 0.05) const;
+    FlutterPoint flutter(const Deficiency& C, double largest_frequency, double min_k = 0.05) const;
 
     /// Eigenvalues of the complete equations with the states of the two lags, 1/s, those with positive imaginary part
     /// by that.

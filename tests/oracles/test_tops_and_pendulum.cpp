@@ -161,7 +161,7 @@ TEST_CASE("heavy top: both steady precessions keep the inclination", "[oracles][
     const double mgl = 4.0;
     const HeavySymmetricTop top(a, c, mgl);
     for (const double theta : {0.4, 1.2, 2.3}) {
-        const double omega3 = 1.3 * std::max(top.least_spin(theta), 8.0);
+        const double omega3 = 1.3 * std::max(top.min_spin(theta), 8.0);
         const auto rates = top.steady_precession(theta, omega3);
         REQUIRE(rates.has_value());
         for (const double psi_dot : {rates->slow, rates->fast}) {
@@ -178,11 +178,11 @@ TEST_CASE("heavy top: limits of steady precession", "[oracles][analytic]") {
     const HeavySymmetricTop top(0.9, 0.35, 4.0);
     CHECK(top.steady_precession(0.5, 1e4)->slow == Approx(4.0 / (0.35 * 1e4)).epsilon(1e-5));
     CHECK(top.steady_precession(0.5, 1e4)->fast == Approx(0.35 * 1e4 / (0.9 * std::cos(0.5))).epsilon(1e-5));
-    CHECK(!top.steady_precession(0.5, 0.99 * top.least_spin(0.5)).has_value());
-    const auto merged = top.steady_precession(0.5, (1.0 + 1e-12) * top.least_spin(0.5));
+    CHECK(!top.steady_precession(0.5, 0.99 * top.min_spin(0.5)).has_value());
+    const auto merged = top.steady_precession(0.5, (1.0 + 1e-12) * top.min_spin(0.5));
     REQUIRE(merged.has_value());
     CHECK(merged->slow == Approx(merged->fast).epsilon(1e-5));
-    CHECK(top.least_spin(2.0) == 0.0);
+    CHECK(top.min_spin(2.0) == 0.0);
     // Without spin, below the horizontal: the conical pendulum, psi'^2 = m g l / (A |cos theta|).
     const auto conical = top.steady_precession(2.5, 0.0);
     REQUIRE(conical.has_value());

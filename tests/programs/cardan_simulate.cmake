@@ -25,7 +25,7 @@ add_example_test(example_turbine_time_spar cardan 0 "OC3-Hywind spar.*energy los
 add_example_test(example_turbine_time_openfast cardan 0 "Blade.dat:[0-9]+: FlStTunr.*rpm, rotor driven.*energy lost.*ok" simulate
     ${models}/openfast/small.fst ${coarse} --notes --generator locked --method alpha --out example_turbine_time_openfast)
 # A machine at rest in its equilibrium stays there; without gravity nothing moves at all.
-add_example_test(example_turbine_time_rest cardan 0 "rotor speed +[-.0-9e]+e-[01][0-9] .*of the most that is exchanged.*ok" simulate
+add_example_test(example_turbine_time_rest cardan 0 "rotor speed +[-.0-9e]+e-[01][0-9] .*of the maximum exchanged.*ok" simulate
     wt600 ${coarse} --rpm 0 --out example_turbine_time_rest)
 add_example_test(example_turbine_time_own cardan 0 "from 33.42[0-9]* rpm.*energy lost.*ok" simulate
     ${PROJECT_SOURCE_DIR}/examples/data/own_turbine.yaml ${coarse} --out example_turbine_time_own)

@@ -42,7 +42,7 @@ foreach(command IN ITEMS campbell steady linearise)
     add_refusal(${command}_wind_rpm 1 "--rpm: value = 5; allowed: none beside --wind" ${command} --wind 8 --rpm 5)
     add_refusal(${command}_density 1 "--density: value = 0; allowed: finite and > 0" ${command} --wind 8 --density 0)
     add_refusal(${command}_rated_power 1 "--rated-power: value = -5; allowed: finite and > 0" ${command} --wind 8 --rated-power=-5)
-    add_refusal(${command}_schedule 1 "--schedule: file = x.csv; allowed: none beside" ${command} --wind 8 --schedule x.csv --least-rpm 3)
+    add_refusal(${command}_schedule 1 "--schedule: file = x.csv; allowed: none beside" ${command} --wind 8 --schedule x.csv --min-rpm 3)
     # Nothing is ignored in silence.
     foreach(option IN ITEMS shear=0.2 density=1.1 no-tower no-skew wake=none rated-power=5000 schedule=x.csv tip-speed-ratio=8)
         string(REGEX REPLACE "=.*" "" name ${option})
@@ -61,7 +61,8 @@ add_example_test(usage_convert_unwritable cardan 1 "the folder 'no/such' does no
 file(WRITE ${test_output_dir}/usage_schedule.csv "wind[m/s],rotor_speed[rpm],pitch[deg]\n7,10,0\n9,11,2\n")
 add_example_test(usage_schedule_ends cardan 1 "schedule of operation: wind speed .m/s. = 12; allowed: 7 ... 9" steady nrel5mw --wind 12 --schedule
                  usage_schedule.csv)
-add_example_test(usage_least_rpm cardan 1 "--least-rpm: least speed of the rotor .rpm. = 20; allowed: at most 12.1" campbell nrel5mw --wind 8 --least-rpm 20)
+add_example_test(usage_min_rpm cardan 1 "--min-rpm: minimum rotor speed .rpm. = 20; allowed: at most 12.1" campbell nrel5mw --wind 8 --min-rpm 20)
+add_example_test(usage_renamed cardan 1 "note: --least-rpm is --min-rpm now.*--min-rpm: minimum rotor speed .rpm. = 20" campbell nrel5mw --wind 8 --least-rpm=20)
 
 # What is in a model's files and not in the machine is counted, and listed on demand; what the model asks for and does
 # not get stands behind the result. Blades with files of their own that are alike are told of once.

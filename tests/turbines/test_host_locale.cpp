@@ -142,10 +142,10 @@ void models(Results& out) {
                 "2100000.5 ! VS_RtPwr\n95.5 ! VS_GenEff\n16.5 ! WE_BladeRadius\n20.25 ! WE_GearboxRatio\n"
                 "3.5 5.5 7.5 ! PS_WindSpeeds\n0.09 0.08 0.05 ! PS_BldPitchMin\n");
     const TurbineFile file = read_openfast(model / "small.fst");
-    std::vector<double> numbers{file.rotor_speed, file.pitch, file.operation.rated_power, file.operation.least_speed,
-                                file.operation.tip_speed_ratio};
+    std::vector<double> numbers{file.rotor_speed, file.pitch, file.operation.rated_power,
+                                file.operation.min_rotor_speed, file.operation.tip_speed_ratio};
     for (const PitchAt& at : file.pitch_schedule) numbers.insert(numbers.end(), {at.rotor_speed, at.pitch});
-    for (const PitchAtWind& at : file.operation.least_pitch) numbers.insert(numbers.end(), {at.wind, at.pitch});
+    for (const PitchAtWind& at : file.operation.min_pitch) numbers.insert(numbers.end(), {at.wind, at.pitch});
     out["ROSCO"] = listed(numbers) + file.rotor_speed_source;
     const std::string yaml = to_yaml(file.description);
     out["OpenFAST"] = yaml + notes_of(file.notes);

@@ -14,8 +14,8 @@ namespace {
 
 std::string in_words(const Wind& wind) {
     if (wind.is_steady()) return text("wind ", wind.rows().front().speed, " m/s");
-    const auto [least, most] = std::ranges::minmax(wind.rows(), {}, &SteadyWind::speed);
-    return text("wind of ", least.speed, " to ", most.speed, " m/s over time");
+    const auto [min, max] = std::ranges::minmax(wind.rows(), {}, &SteadyWind::speed);
+    return text("wind of ", min.speed, " to ", max.speed, " m/s over time");
 }
 
 void write_wrenches(const AirParts& parts, const AirEvaluation& air, std::span<Wrench> out) {
@@ -190,7 +190,7 @@ const TowerAir& MachineAir::support() const {
 bool MachineAir::has_tower_influence() const {
     return parts_->influence.has_value();
 }
-int MachineAir::least_azimuths() const {
+int MachineAir::min_azimuths() const {
     return has_tower_influence() ? 144 : 1;
 }
 

@@ -105,7 +105,7 @@ public:
     bool has_tower_influence() const;  ///< the tower changes the wind at the sections
     /// Of a revolution, that means and harmonics need: with the tower's influence 144, for it is over within a few
     /// degrees (blades that are 120 deg apart see the tower from the same azimuths), else 1.
-    int least_azimuths() const;
+    int min_azimuths() const;
 
 private:
     struct Parts;

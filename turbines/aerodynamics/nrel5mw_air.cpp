@@ -40,7 +40,7 @@ std::vector<Polar> polars() {
 std::vector<UnsteadyAirfoil> nrel5mw_unsteady_airfoils() {
     const CsvTable t = table("nrel5mw_unsteady.csv");
     const auto slope = t.column("slope", "1/rad"), zero = t.column("zero_lift", "deg"),
-               upper = t.column("upper", "deg"), lower = t.column("lower", "deg"), drag = t.column("least_drag");
+               upper = t.column("upper", "deg"), lower = t.column("lower", "deg"), drag = t.column("zero_lift_drag");
     std::vector<UnsteadyAirfoil> out;
     for (const Polar& polar : polars()) {
         const std::size_t i = out.size();
@@ -48,7 +48,7 @@ std::vector<UnsteadyAirfoil> nrel5mw_unsteady_airfoils() {
                                              .zero_lift = zero[i] * units::degree,
                                              .upper = upper[i] * units::degree,
                                              .lower = lower[i] * units::degree,
-                                             .least_drag = drag[i]});
+                                             .zero_lift_drag = drag[i]});
     }
     return out;
 }

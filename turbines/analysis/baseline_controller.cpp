@@ -96,22 +96,22 @@ void set_gains(const Machine& machine, const Ratings& rated, VariableSpeedParame
 
 // Rising speeds, whatever the limits of the machine are.
 void set_speeds(const Machine& machine, const Ratings& rated, VariableSpeedParameters& p) {
-    const double least = std::max(machine.controller.gains.min_speed, machine.operation.min_speed * rated.ratio);
+    const double min = std::max(machine.controller.gains.min_speed, machine.operation.min_speed * rated.ratio);
     p.reference_speed = rated.speed;
     p.rated_speed = rated_ratio * rated.speed;
     p.slip = slip;
     // The parabola must end below rated torque, so that the line of the slip meets it below rated speed.
     p.optimal_gain = std::min(p.optimal_gain, 0.95 * rated.torque / (p.rated_speed * p.rated_speed));
     const double highest = p.torque_law().transition_speed();
-    p.cut_in = std::min(least > 0 ? least : 0.4 * rated.speed, 0.9 * highest);
+    p.cut_in = std::min(min > 0 ? min : 0.4 * rated.speed, 0.9 * highest);
     p.optimum_from = std::min(optimum_ratio * p.cut_in, (p.cut_in + highest) / 2);
 }
 
 double largest_fine_pitch(const Machine& machine) {
-    double most = machine.operation.pitch;
-    for (const PitchAtWind& one : machine.operation.min_pitch) most = std::max(most, one.pitch);
-    for (const PitchAt& one : machine.operation.pitch_schedule) most = std::max(most, one.pitch);
-    return most;
+    double max = machine.operation.pitch;
+    for (const PitchAtWind& one : machine.operation.min_pitch) max = std::max(max, one.pitch);
+    for (const PitchAt& one : machine.operation.pitch_schedule) max = std::max(max, one.pitch);
+    return max;
 }
 
 double first_of(double given, double otherwise) {
@@ -136,14 +136,14 @@ VariableSpeedParameters baseline_controller(const Machine& machine, const Report
     p.constant_power = gains.constant_power;
     p.optimal_gain = gains.optimal_gain > 0 ? gains.optimal_gain : own_optimum(machine, rated);
     set_speeds(machine, rated, p);
-    p.largest_torque = std::max(gains.max_torque, largest_torque_ratio * rated.torque);
-    p.largest_torque_rate = first_of(gains.max_torque_rate, torque_rate_ratio * rated.torque);
+    p.max_torque = std::max(gains.max_torque, largest_torque_ratio * rated.torque);
+    p.max_torque_rate = first_of(gains.max_torque_rate, torque_rate_ratio * rated.torque);
     p.constant_power_pitch = largest_fine_pitch(machine) + 1 * units::degree;
-    p.least_pitch = machine.operation.pitch;
+    p.min_pitch = machine.operation.pitch;
     for (const PitchAt& one : machine.operation.pitch_schedule)
-        p.least_pitches.push_back({one.rotor_speed * rated.ratio, one.pitch});
-    p.largest_pitch = first_of(gains.max_pitch, pi / 2);
-    p.largest_pitch_rate = first_of(gains.max_pitch_rate, pitch_rate_ratio * rated.rotor_speed());
+        p.min_pitches.push_back({one.rotor_speed * rated.ratio, one.pitch});
+    p.max_pitch = first_of(gains.max_pitch, pi / 2);
+    p.max_pitch_rate = first_of(gains.max_pitch_rate, pitch_rate_ratio * rated.rotor_speed());
     std::string from = text("gains of ", gains.source);
     set_gains(machine, rated, p, from);
     report_remark(report, {Remark::Kind::taken, text("controller: baseline, ", from)});

@@ -65,16 +65,16 @@ std::vector<double> pitch_angles(CampbellSettings& s, const Machine& machine) {
     angles.reserve(s.rotor_speeds.size());
     for (const double speed : s.rotor_speeds)
         angles.push_back(schedule.empty() ? 0 : representable(pitch_at(schedule, speed), units::degree));
-    const auto [least, most] = std::ranges::minmax(angles);
-    if (most - least < 1e-9 * units::degree) {
+    const auto [min, max] = std::ranges::minmax(angles);
+    if (max - min < 1e-9 * units::degree) {
         if (!s.pitch_schedule.empty()) s.machine.pitch = angles.front();
         s.pitch_schedule.clear();
         s.machine.pitch = pitch_at_speed(s.machine.pitch, machine, s.rotor_speeds.back(), s.report);
         return std::vector<double>(angles.size(), *s.machine.pitch);
     }
     report_remark(s.report, {Remark::Kind::taken,
-                             text("pitch: ", rounded(least * units::to_degrees), " to ",
-                                  rounded(most * units::to_degrees), " deg over the rotor speed",
+                             text("pitch: ", rounded(min * units::to_degrees), " to ", rounded(max * units::to_degrees),
+                                  " deg over the rotor speed",
                                   s.pitch_schedule.empty() ? text(" (", machine.operation.pitch_source, ")") : "")});
     s.pitch_schedule = schedule;
     return angles;

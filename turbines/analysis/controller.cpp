@@ -31,17 +31,17 @@ void check(const Controller& c) {
     const ActuatorOptions& a = c.actuators;
     require_not_negative("Controller::actuators", "pitch frequency [rad/s]", a.pitch_frequency);
     if (a.pitch_frequency > 0) require_positive("Controller::actuators", "damping ratio", a.pitch_damping);
-    require_not_negative("Controller::actuators", "largest pitch rate [rad/s]", a.largest_pitch_rate);
+    require_not_negative("Controller::actuators", "largest pitch rate [rad/s]", a.max_pitch_rate);
     if (a.pitch_frequency > 0 && !c.acts())
         throw InputError("Controller::actuators", "pitch frequency [rad/s]", a.pitch_frequency,
                          "0: there is no controller to follow");
 }
 
-std::string least_in_words(const VariableSpeedParameters& p) {
+std::string min_in_words(const VariableSpeedParameters& p) {
     std::string rows;
-    for (const PitchAtSpeed& one : p.least_pitches)
+    for (const PitchAtSpeed& one : p.min_pitches)
         rows += text(rows.empty() ? "" : "; ", digits(one.pitch), " at ", digits(one.speed), " rad/s");
-    return rows.empty() ? digits(p.least_pitch) : rows;
+    return rows.empty() ? digits(p.min_pitch) : rows;
 }
 
 // All numbers, since a caller may set them.
@@ -51,9 +51,9 @@ std::string in_words(const VariableSpeedParameters& p) {
              digits(p.optimum_from), " to ", digits(p.rated_speed), " rad/s, optimum ", digits(p.optimal_gain),
              " N m s^2/rad^2, slip ", digits(p.slip), ", rated ", digits(p.rated_power), " W, ",
              p.constant_power ? "constant power" : "constant torque", " from ", digits(p.constant_power_pitch),
-             " rad, at most ", digits(p.largest_torque), " N m and ", digits(p.largest_torque_rate),
-             " N m/s, pitch for ", digits(p.reference_speed), " rad/s, ", least_in_words(p), " to ",
-             digits(p.largest_pitch), " rad, at most ", digits(p.largest_pitch_rate), " rad/s, gains");
+             " rad, at most ", digits(p.max_torque), " N m and ", digits(p.max_torque_rate), " N m/s, pitch for ",
+             digits(p.reference_speed), " rad/s, ", min_in_words(p), " to ", digits(p.max_pitch), " rad, at most ",
+             digits(p.max_pitch_rate), " rad/s, gains");
     if (p.gains.empty())
         return text(words, " ", digits(p.proportional), " s and ", digits(p.integral), ", halved at ",
                     digits(p.doubling_pitch), " rad");
@@ -103,7 +103,7 @@ std::string in_words(const Controller& c) {
     if (!c.acts()) return "";
     const ActuatorOptions& a = c.actuators;
     const std::string rate =
-        a.largest_pitch_rate > 0 ? text(" with at most ", a.largest_pitch_rate * units::to_degrees, " deg/s") : "";
+        a.max_pitch_rate > 0 ? text(" with at most ", a.max_pitch_rate * units::to_degrees, " deg/s") : "";
     return text(
         "controller ", c.kind == Controller::Kind::baseline ? "baseline" + in_words(*c.parameters) : c.library.string(),
         c.input.empty() ? "" : text(" with ", c.input.string()), ", every ", *c.period,

@@ -37,16 +37,16 @@ solvers::Campbell blade_modes(const Machine& machine, const PartModesSettings& s
     own.pitch = pitch_at_speed(own.pitch, machine, speeds.back());
     AssemblyOptions assembly = assembly_options(machine, own, false);
     assembly.spin = CoordinateRole::driven;
-    assembly.mesh.largest_hz = limit(settings, clamped_blade_hz(d, assembly, d.first_blade()));
+    assembly.mesh.max_hz = limit(settings, clamped_blade_hz(d, assembly, d.first_blade()));
     assembly.mesh.rotor_speed = std::abs(speeds.back());
-    return diagram(isolated_blade(d, assembly, d.first_blade()), speeds, assembly.mesh.largest_hz,
+    return diagram(isolated_blade(d, assembly, d.first_blade()), speeds, assembly.mesh.max_hz,
                    "clamped at its root, no other part moves");
 }
 
 solvers::Campbell tower_modes(const Machine& machine, const PartModesSettings& settings) {
     AssemblyOptions assembly = assembly_options(machine, settings.machine, false);
-    assembly.mesh.largest_hz = limit(settings, clamped_tower_hz(machine.description, assembly));
-    return diagram(isolated_tower(machine.description, assembly), {0}, assembly.mesh.largest_hz,
+    assembly.mesh.max_hz = limit(settings, clamped_tower_hz(machine.description, assembly));
+    return diagram(isolated_tower(machine.description, assembly), {0}, assembly.mesh.max_hz,
                    "clamped at its foot, without what it carries: the machine's frequencies are lower");
 }
 

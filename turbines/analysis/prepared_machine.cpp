@@ -131,11 +131,11 @@ PreparedTurbine assembled(const Machine& machine, AssemblyOptions assembly, doub
                           const Report& report) {
     const TurbineDescription& description = machine.description;
     check(description, rotor_speed, assembly.pitch);
-    assembly.mesh.largest_hz = max_hz;
+    assembly.mesh.max_hz = max_hz;
     assembly.mesh.rotor_speed = rotor_speed;
     const Turbine turbine = assemble(description, assembly);
     // Numbers that were asked for are judged as well.
-    const Mesh mesh = turbine.mesh().largest_hz > 0 ? turbine.mesh() : converged_mesh(description, assembly);
+    const Mesh mesh = turbine.mesh().max_hz > 0 ? turbine.mesh() : converged_mesh(description, assembly);
     if (description.platform)
         report_remark(report,
                       {Remark::Kind::taken, text("mesh: chosen with the ", description.platform->name, " held")});

@@ -19,9 +19,9 @@ void take(const Report& report, const std::string& words) {
 
 std::string in_words(const VariableSpeed& law, const std::string& source) {
     const std::string pitch =
-        law.least_pitch.empty() ? rounded(law.fine_pitch * units::to_degrees) + " deg" : "at least as scheduled";
+        law.min_pitch.empty() ? rounded(law.fine_pitch * units::to_degrees) + " deg" : "at least as scheduled";
     return text("operation: tip-speed ratio ", digits(law.tip_speed_ratio, std::chars_format::fixed, 3), ", ",
-                rounded(law.least_speed * units::to_rpm), " to ", rounded(law.rated_speed * units::to_rpm),
+                rounded(law.min_rotor_speed * units::to_rpm), " to ", rounded(law.rated_speed * units::to_rpm),
                 " rpm, pitch ", pitch, "; ", rounded(law.rated_power / 1e3), " kW on the rotor from rated wind on",
                 source.empty() ? "" : text(" (", source, ")"));
 }
@@ -34,11 +34,11 @@ bool sets_law(const OperationSettings& own) {
 void require_power(double rated_power, const TurbineDescription& d) {
     constexpr double wind = 50, density = 1.225, betz = 16.0 / 27;  // m/s, kg/m^3
     const double radius = d.hub.radius + d.blade.line.length,
-                 most = betz * density / 2 * pi * radius * radius * wind * wind * wind;
-    if (rated_power > most)
+                 max = betz * density / 2 * pi * radius * radius * wind * wind * wind;
+    if (rated_power > max)
         throw InputError(
             "OperationSettings::rated_power", "value [kW]", rounded(rated_power / 1e3),
-            text("at most ", rounded(most / 1e3), ", all that the rotor can take from a wind of ", wind, " m/s"));
+            text("at most ", rounded(max / 1e3), ", all that the rotor can take from a wind of ", wind, " m/s"));
 }
 
 // What the settings say, else the controller of the machine.
@@ -47,10 +47,10 @@ VariableSpeed law_of(const Machine& machine, const WindRunOptions& options, cons
     const TurbineDescription& d = machine.description;
     VariableSpeed law = variable_speed(machine.operation);
     if (own.rated_rotor_speed) law.rated_speed = *own.rated_rotor_speed;
-    if (own.min_rotor_speed) law.least_speed = *own.min_rotor_speed;
+    if (own.min_rotor_speed) law.min_rotor_speed = *own.min_rotor_speed;
     if (own.rated_power) law.rated_power = *own.rated_power;
     law.fine_pitch = options.machine.pitch.value_or(0);
-    if (!own_pitch) law.least_pitch.clear();
+    if (!own_pitch) law.min_pitch.clear();
     if (law.rated_power == 0)
         throw InputError("OperationSettings::rated_power", "value", "none, and the model names none",
                          "power of the air on the rotor at rated wind; or MachineOperation::schedule");
@@ -62,9 +62,9 @@ VariableSpeed law_of(const Machine& machine, const WindRunOptions& options, cons
     if (!(law.rated_speed > 0))
         throw InputError("OperationSettings::rated_rotor_speed", "value", "none, and the model names none",
                          "speed of the rotor from rated wind on; or MachineOperation::schedule");
-    if (law.least_speed > law.rated_speed)
+    if (law.min_rotor_speed > law.rated_speed)
         throw InputError(own.min_rotor_speed ? "OperationSettings::min_rotor_speed" : machine.operation.source,
-                         "least speed of the rotor [rpm]", rounded(law.least_speed * units::to_rpm),
+                         "minimum rotor speed [rpm]", rounded(law.min_rotor_speed * units::to_rpm),
                          text("at most ", rounded(law.rated_speed * units::to_rpm), ", the rated one",
                               own.min_rotor_speed ? "" : "; OperationSettings::min_rotor_speed gives another"));
     law.check();

@@ -131,7 +131,7 @@ ActuatedForces::ActuatedForces(const Turbine& turbine, ActuatorOptions options)
         throw InputError(name, "blades with pitch joints", 0,
                          "at least one: give_pitch_drives() prescribes the pitch, give_pitch_springs() makes bearings");
     require_not_negative(name, "frequency of the pitch actuators [rad/s]", options_.pitch_frequency);
-    require_not_negative(name, "largest rate of the pitch actuators [rad/s]", options_.largest_pitch_rate);
+    require_not_negative(name, "maximum rate of the pitch actuators [rad/s]", options_.max_pitch_rate);
     const Model& model = turbine.system().model;
     for (std::size_t k = 0; k < layout_.pitch.size(); ++k) {
         PitchBearing bearing{model.index(layout_.pitch[k])};
@@ -176,9 +176,9 @@ std::string ActuatedForces::in_words(const PitchBearing& bearing) const {
     if (options_.pitch_frequency == 0)
         return text("pitch on the spring of its bearing, ", bearing.stiffness, " N m/rad and ", bearing.damping,
                     " N m s/rad, which rests at the demand");
-    const std::string limit = options_.largest_pitch_rate == 0
+    const std::string limit = options_.max_pitch_rate == 0
                                   ? std::string()
-                                  : text(", at most ", options_.largest_pitch_rate * units::to_degrees, " deg/s");
+                                  : text(", at most ", options_.max_pitch_rate * units::to_degrees, " deg/s");
     return text("pitch actuator of second order, ", options_.pitch_frequency / (2 * pi), " Hz, damping ",
                 options_.pitch_damping, limit, ", before the spring of the bearing");
 }
@@ -235,7 +235,7 @@ void ActuatedForces::add_pitch(ForceSet& forces, std::size_t k, const ControlSig
                    .demand = demand,
                    .frequency = options_.pitch_frequency,
                    .damping = options_.pitch_damping};
-    if (options_.largest_pitch_rate > 0) drive.rates = {-options_.largest_pitch_rate, options_.largest_pitch_rate};
+    if (options_.max_pitch_rate > 0) drive.rates = {-options_.max_pitch_rate, options_.max_pitch_rate};
     forces.add_element(
         position_actuator(drive, layout_.pitch[k], bearing.stiffness, bearing.damping, -1, setting).element);
 }
@@ -248,8 +248,7 @@ ForceSet ActuatedForces::with_any(const ActuatorDemands& demands, double torque)
         .name = {.name = torque_state, .unit = "N m", .scale = torque_scale, .initial = torque, .part = "generator"},
         .demand = demands.torque,
         .time_constant = options_.torque_time_constant};
-    if (options_.largest_torque_rate > 0)
-        generator.rates = {-options_.largest_torque_rate, options_.largest_torque_rate};
+    if (options_.max_torque_rate > 0) generator.rates = {-options_.max_torque_rate, options_.max_torque_rate};
     forces.add_element(options_.torque_on_shaft
                            ? force_actuator(generator, *layout_.generator, -layout_.gear_ratio).element
                            : actuator(generator).element);

@@ -43,9 +43,9 @@ struct ActuatorOptions {
     /// At 2 Hz one lags behind the speed loop of a large machine (0.6 rad/s) by 4 deg. 0: there are none.
     double pitch_frequency = 0;
     double pitch_damping = 0.7;          ///< ratio
-    double largest_pitch_rate = 0;       ///< of the actuators, rad/s; 0: no limit
+    double max_pitch_rate = 0;           ///< of the actuators, rad/s; 0: no limit
     double torque_time_constant = 0.02;  ///< of the generator's torque, s
-    double largest_torque_rate = 0;      ///< N m/s; 0: no limit
+    double max_torque_rate = 0;          ///< N m/s; 0: no limit
     /// false: the torque actuator acts on nothing; another element has its state as demand,
     /// signal::state(torque_state), and acts on the shaft itself: a machine with its converter. Its channels are those
     /// of the torque then.

@@ -55,9 +55,9 @@ Machine machine_of(TurbineFile file) {
                          .pitch_source = std::move(file.pitch_source),
                          .pitch_schedule = std::move(file.pitch_schedule),
                          .rated_power = file.operation.rated_power,
-                         .min_speed = file.operation.least_speed,
+                         .min_speed = file.operation.min_rotor_speed,
                          .tip_speed_ratio = file.operation.tip_speed_ratio,
-                         .min_pitch = std::move(file.operation.least_pitch),
+                         .min_pitch = std::move(file.operation.min_pitch),
                          .source = std::move(file.operation.source)};
     machine.run = std::move(file.run);
     machine.controller = std::move(file.controller);
@@ -77,11 +77,11 @@ SteadyWind still_wind(const Turbine& turbine, const Machine& machine, double den
 
 VariableSpeed variable_speed(const MachineOperation& operation) {
     return {.tip_speed_ratio = operation.tip_speed_ratio,
-            .least_speed = operation.min_speed,
+            .min_rotor_speed = operation.min_speed,
             .rated_speed = operation.rotor_speed,
             .rated_power = operation.rated_power,
             .fine_pitch = operation.pitch,
-            .least_pitch = operation.min_pitch};
+            .min_pitch = operation.min_pitch};
 }
 
 }  // namespace cardan::turbines

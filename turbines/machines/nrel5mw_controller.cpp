@@ -15,16 +15,16 @@ VariableSpeedParameters nrel5mw_controller() {
     p.optimal_gain = 0.0255764 / (units::rpm * units::rpm);
     p.slip = 0.1;
     p.rated_power = 5.296610e6;
-    p.largest_torque = 47402.91;
-    p.largest_torque_rate = 15000;
+    p.max_torque = 47402.91;
+    p.max_torque_rate = 15000;
     p.constant_power_pitch = 1 * units::degree;
     p.reference_speed = 1173.7 * units::rpm;
     p.proportional = 0.01882681;
     p.integral = 0.008068634;
     p.doubling_pitch = 6.302336 * units::degree;
-    p.least_pitch = 0;
-    p.largest_pitch = 90 * units::degree;
-    p.largest_pitch_rate = 8 * units::degree;
+    p.min_pitch = 0;
+    p.max_pitch = 90 * units::degree;
+    p.max_pitch_rate = 8 * units::degree;
     return p;
 }
 

@@ -19,10 +19,10 @@ struct ShaftBeam {
 struct MeshOptions {
     /// Change of a frequency that twice as many elements may cause, relative; > 0.
     double tolerance = 2e-3;
-    double largest_hz = 0;   ///< frequencies up to here count, Hz; 0: usual_frequency()
+    double max_hz = 0;       ///< frequencies up to here count, Hz; 0: usual_frequency()
     double rotor_speed = 0;  ///< highest of the analysis, rad/s: the blades' centrifugal limit is at least twice that;
                              ///< 0: the description's
-    int most = 24;           ///< elements per beam, >= 1
+    int max = 24;            ///< elements per beam, >= 1
 };
 
 /// Options by which a description is meshed and analysed.

@@ -65,7 +65,7 @@ struct Change {
 
 // Frequencies that are compared.
 struct Band {
-    double least_hz = 0, largest_hz = 0;
+    double min_hz = 0, max_hz = 0;
 };
 
 // Below this fraction of the largest that counts, or of the usual one, a motion counts as one without stiffness, which
@@ -75,8 +75,8 @@ constexpr double at_least = 1e-3;
 // From few to many elements.
 Change largest_change(const Frequencies& few, const Frequencies& many, const Band& band) {
     Change largest;
-    for (std::size_t k = 0; k < many.size() && many[k] <= band.largest_hz; ++k) {
-        if (many[k] < band.least_hz) continue;
+    for (std::size_t k = 0; k < many.size() && many[k] <= band.max_hz; ++k) {
+        if (many[k] < band.min_hz) continue;
         // A mode that few elements do not have at all.
         const double change = k < few.size() ? std::abs(few[k] / many[k] - 1) : 1.0;
         if (change >= largest.change) largest = {change, many[k], largest.modes};
@@ -87,7 +87,7 @@ Change largest_change(const Frequencies& few, const Frequencies& many, const Ban
 
 // Elements of a whole machine whose frequencies are computed: all eigenvalues of a full matrix of five or six times the
 // size, in a minute.
-constexpr int most_compared = 600;
+constexpr int max_compared = 600;
 
 constexpr std::array candidates{2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24, 32, 48};
 
@@ -111,8 +111,8 @@ template <class Compute>
 int fewest(Compute frequencies, const MeshOptions& mesh, const Band& band, double tolerance, int from) {
     Known of(std::move(frequencies));
     for (int n : candidates)
-        if (n >= from && n < mesh.most && largest_change(of(n), of(2 * n), band).change <= tolerance) return n;
-    return mesh.most;
+        if (n >= from && n < mesh.max_elements && largest_change(of(n), of(2 * n), band).change <= tolerance) return n;
+    return mesh.max_elements;
 }
 
 const PartDamping undamped;
@@ -121,9 +121,9 @@ MeshOptions checked(const TurbineDescription& d, const AssemblyOptions& options)
     check_elements(options);
     MeshOptions mesh = options.mesh;
     require_positive("mesh", "tolerance", mesh.tolerance);
-    require_not_negative("mesh", "largest frequency [Hz]", mesh.largest_hz);
+    require_not_negative("mesh", "largest frequency [Hz]", mesh.max_hz);
     require_not_negative("mesh", "rotor speed [rad/s]", mesh.rotor_speed);
-    if (mesh.most < 1) throw InputError("mesh", "most elements", mesh.most, ">= 1");
+    if (mesh.max_elements < 1) throw InputError("mesh", "maximum number of elements", mesh.max_elements, ">= 1");
     if (mesh.rotor_speed == 0) mesh.rotor_speed = d.rotor_speed;
     return mesh;
 }
@@ -133,8 +133,8 @@ public:
     Search(TurbineDescription description, const AssemblyOptions& options)
         : description_(std::move(description)), options_(options), mesh_(checked(description_, options)) {
         const double usual = usual_frequency(description_, options);
-        if (mesh_.largest_hz == 0) mesh_.largest_hz = usual;
-        band_ = {at_least * std::min(mesh_.largest_hz, usual), mesh_.largest_hz};
+        if (mesh_.max_hz == 0) mesh_.max_hz = usual;
+        band_ = {at_least * std::min(mesh_.max_hz, usual), mesh_.max_hz};
         description_.source.clear();
         description_.platform.reset();  // afloat and without gravity it would capsize
         options_.gravity.setZero();
@@ -169,23 +169,23 @@ private:
 
     // Those that share a description need the same number.
     int blades() const {
-        int most = 1;
+        int max = 1;
         bool shared = false;
         for (int k = 1; k <= description_.blades; ++k) {
             const bool own = description_.own_blades.contains(k);
             if (description_.blade_at(k) == nullptr || (!own && shared)) continue;
-            most = std::max(most, blade(k));
+            max = std::max(max, blade(k));
             shared |= !own;
         }
-        return most;
+        return max;
     }
     int blade(int number) const {
         if (!seeks_blade_elements(description_, options_) || description_.blade_at(number)->rigid)
             return options_.blade_elements.value_or(1);
         const TurbineDescription alone = blade_alone(description_, number);
-        int least = candidates.front();
-        while (least < mesh_.most && !endures_rotation(alone, number, least)) ++least;
-        return fewest([&](int n) { return blade_hz(alone, number, n); }, mesh_, band_, part_tolerance(), least);
+        int min = candidates.front();
+        while (min < mesh_.max_elements && !endures_rotation(alone, number, min)) ++min;
+        return fewest([&](int n) { return blade_hz(alone, number, n); }, mesh_, band_, part_tolerance(), min);
     }
     Frequencies blade_hz(const TurbineDescription& alone, int number, int elements) const {
         const AssemblyOptions options = with(elements, 1);
@@ -223,8 +223,8 @@ private:
         Mesh mesh;
         mesh.blade_elements = blade_elements;
         mesh.tower_elements = tower_elements;
-        mesh.largest_hz = mesh_.largest_hz;
-        if (2 * (description_.blades * blade_elements + tower_elements) > most_compared) return mesh;
+        mesh.max_hz = mesh_.max_hz;
+        if (2 * (description_.blades * blade_elements + tower_elements) > max_compared) return mesh;
         Frequencies few = frequencies(blade_elements, tower_elements);
         const auto change = [&](int blade_factor, int tower_factor) {
             return largest_change(
@@ -248,7 +248,7 @@ private:
     // Half as many elements more, where they are sought.
     bool enlarge(Mesh& mesh) const {
         const auto more = [&](int& elements, bool sought) {
-            const int next = std::min(mesh_.most, elements + std::max(1, elements / 2));
+            const int next = std::min(mesh_.max_elements, elements + std::max(1, elements / 2));
             if (!sought || elements == 1 || next <= elements) return false;
             elements = next;
             return true;
@@ -275,9 +275,9 @@ constexpr int fine = 12;  // elements of a part whose frequencies are asked for
 std::string in_words(const Mesh& mesh) {
     std::ostringstream out = text_stream();
     out << "mesh: " << mesh.blade_elements << " elements per blade, " << mesh.tower_elements << " in the tower";
-    if (mesh.largest_hz == 0) return out.str() + ", as given";
+    if (mesh.max_hz == 0) return out.str() + ", as given";
     if (mesh.modes == 0 && !mesh.converged) return out.str() + ", too many to be compared with twice as many";
-    out << "; with twice as many no frequency at rest up to " << mesh.largest_hz << " Hz changes by more than "
+    out << "; with twice as many no frequency at rest up to " << mesh.max_hz << " Hz changes by more than "
         << std::fixed << std::setprecision(2) << 100 * mesh.change << " % (that at " << std::setprecision(3)
         << mesh.at_hz << " Hz, of " << mesh.modes << ")";
     return out.str();

@@ -18,7 +18,7 @@ namespace cardan::turbines {
 /// The elements of a machine, and how far its frequencies have converged with them.
 struct Mesh {
     int blade_elements = 1, tower_elements = 1;  ///< 1 also of parts that are rigid or missing
-    double largest_hz = 0;   ///< frequencies up to here were compared; 0: none, the numbers were given
+    double max_hz = 0;       ///< frequencies up to here were compared; 0: none, the numbers were given
     double change = 0;       ///< largest relative change of a frequency from twice as many elements
     double at_hz = 0;        ///< of that frequency
     int modes = 0;           ///< that were compared; 0 of more than some hundred elements in all

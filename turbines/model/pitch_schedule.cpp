@@ -7,7 +7,7 @@
 namespace cardan::turbines {
 
 double pitch_at(const std::vector<PitchAtWind>& schedule, double wind) {
-    constexpr const char* here = "least pitch over the wind speed";
+    constexpr const char* here = "minimum pitch over the wind speed";
     if (schedule.empty()) throw InputError(here, "number of rows", 0, "at least 1");
     for (std::size_t i = 1; i < schedule.size(); ++i)
         if (!(schedule[i].wind > schedule[i - 1].wind))

@@ -5,7 +5,7 @@
 
 namespace cardan::turbines {
 
-/// Least pitch at a wind speed.
+/// Minimum pitch at a wind speed.
 struct PitchAtWind {
     double wind = 0;   ///< m/s
     double pitch = 0;  ///< rad, positive toward feather

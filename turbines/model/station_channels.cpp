@@ -14,7 +14,7 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr std::size_t most_stations = 9;  // one digit in OpenFAST's names
+constexpr std::size_t max_stations = 9;  // one digit in OpenFAST's names
 
 // How the names of channels begin and end.
 struct BeamNames {
@@ -34,8 +34,7 @@ struct Gauge {
 
 void check(const std::string& beam, double length, const std::vector<double>& places) {
     const std::string where = "stations of " + beam;
-    if (places.size() > most_stations)
-        throw InputError(where, "number", places.size(), text("at most ", most_stations));
+    if (places.size() > max_stations) throw InputError(where, "number", places.size(), text("at most ", max_stations));
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (!(places[i] >= 0 && places[i] <= length))
             throw InputError(where, text("place of station ", i + 1, " [m]"), places[i], text("0 ... ", length));

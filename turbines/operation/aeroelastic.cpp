@@ -132,7 +132,7 @@ solvers::PeriodicSteadyState steady_state(const AeroelasticPoint& point, double 
     options.rotor_speed = rotor_speed;
     options.harmonics = harmonics;
     options.more_harmonics = true;
-    if (point.air.has_tower_influence()) options.samples = std::max(4 * (harmonics + 1), point.air.least_azimuths());
+    if (point.air.has_tower_influence()) options.samples = std::max(4 * (harmonics + 1), point.air.min_azimuths());
     options.start = point.start;
     options.state_start = point.state_start;
     options.rotor = &rotor;

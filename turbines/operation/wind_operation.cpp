@@ -16,9 +16,9 @@ namespace cardan::turbines {
 namespace {
 
 constexpr double pitch_step = 2 * units::degree;  // in search of a bracket
-constexpr double largest_pitch = pi / 2;
+constexpr double max_pitch = pi / 2;
 constexpr double power_error = 1e-6;  // of rated power
-constexpr int most_secants = 6;
+constexpr int max_secants = 6;
 
 bool is_constant_in(const SteadyWind& wind) {
     return wind.is_uniform() && wind.direction == 0 && wind.upflow == 0 && wind.vertical == 0;
@@ -58,13 +58,14 @@ void VariableSpeed::check() const {
     require_positive(here, "tip-speed ratio", tip_speed_ratio);
     require_positive(here, "rated speed [rad/s]", rated_speed);
     require_positive(here, "rated power [W]", rated_power);
-    if (!(least_speed >= 0 && least_speed <= rated_speed))
-        throw InputError(here, "least speed [rad/s]", least_speed, text("0 ... ", rated_speed, ", the rated speed"));
+    if (!(min_rotor_speed >= 0 && min_rotor_speed <= rated_speed))
+        throw InputError(here, "minimum rotor speed [rad/s]", min_rotor_speed,
+                         text("0 ... ", rated_speed, ", the rated speed"));
     if (!std::isfinite(fine_pitch)) throw InputError(here, "fine pitch [rad]", fine_pitch, "finite");
 }
 
 double VariableSpeed::speed_at(double wind, double radius) const {
-    return std::clamp(tip_speed_ratio * wind / radius, std::min(least_speed, rated_speed), rated_speed);
+    return std::clamp(tip_speed_ratio * wind / radius, std::min(min_rotor_speed, rated_speed), rated_speed);
 }
 
 double best_tip_speed_ratio(const AeroBlade& blade, int blades, double cone, double pitch,
@@ -91,7 +92,7 @@ WindOperation::WindOperation(TurbineDescription description, AssemblyOptions opt
     air_.emplace(*turbine_, blade, options_.wind, options_.air, options_.support);
     if (options_.harmonics < 1) throw InputError("operation in the wind", "harmonics", options_.harmonics, ">= 1");
     if (options_.azimuths < 1) throw InputError("operation in the wind", "azimuths", options_.azimuths, ">= 1");
-    options_.azimuths = std::max(options_.azimuths, air_->least_azimuths());
+    options_.azimuths = std::max(options_.azimuths, air_->min_azimuths());
 }
 
 double WindOperation::radius() const {
@@ -240,8 +241,8 @@ std::optional<WindPoint> WindOperation::at_rated_by_secants(double wind, const V
     const RatedPitch &before = rated_.front(), &last = rated_.back();
     const double rise = last.wind == before.wind ? 0 : (last.pitch - before.pitch) / (last.wind - before.wind);
     double pitch = last.pitch + rise * (wind - last.wind), slope = last.slope, pitch_before = pitch, excess_before = 0;
-    for (int i = 0; i < most_secants; ++i) {
-        if (!(pitch >= law.least_pitch_at(wind) && pitch <= largest_pitch)) return std::nullopt;
+    for (int i = 0; i < max_secants; ++i) {
+        if (!(pitch >= law.min_pitch_at(wind) && pitch <= max_pitch)) return std::nullopt;
         WindPoint point = at({wind, law.rated_speed, pitch});
         if (!point.converged) return std::nullopt;
         const double excess = point.power / law.rated_power - 1;
@@ -273,22 +274,22 @@ WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
         excess_before = own;
         return own;
     };
-    const double least = law.least_pitch_at(wind);
-    double low = std::max(least, last_operation_ ? last_operation_->pitch : least), at_low = excess(low), high = low,
+    const double min = law.min_pitch_at(wind);
+    double low = std::max(min, last_operation_ ? last_operation_->pitch : min), at_low = excess(low), high = low,
            at_high = at_low;
-    while (at_low < 0 && low > least) {
+    while (at_low < 0 && low > min) {
         high = low;
         at_high = at_low;
-        low = std::max(least, low - pitch_step);
+        low = std::max(min, low - pitch_step);
         at_low = excess(low);
     }
     if (at_low <= 0) return point;
     while (at_high > 0) {
-        if (high >= largest_pitch)
+        if (high >= max_pitch)
             throw NumericalError(text("no pitch up to 90 deg brings the power down to ", law.rated_power, " W"));
         low = high;
         at_low = at_high;
-        high = std::min(largest_pitch, high + pitch_step);
+        high = std::min(max_pitch, high + pitch_step);
         at_high = excess(high);
     }
     std::uintmax_t iterations = 50;
@@ -301,11 +302,11 @@ WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
 WindPoint WindOperation::at(double wind, const VariableSpeed& law) {
     law.check();
     const double speed = law.speed_at(wind, radius());
-    const double least = law.least_pitch_at(wind);
-    // Beyond rated wind the least pitch may be far from where the machine runs.
-    const bool beyond = last_operation_ && last_operation_->pitch > least && speed == law.rated_speed;
+    const double min = law.min_pitch_at(wind);
+    // Beyond rated wind the minimum pitch may be far from where the machine runs.
+    const bool beyond = last_operation_ && last_operation_->pitch > min && speed == law.rated_speed;
     WindPoint point;
-    if (!beyond) point = at({wind, speed, least});
+    if (!beyond) point = at({wind, speed, min});
     if (point.converged && point.power <= law.rated_power) return point;
     try {
         return at_rated(wind, law);

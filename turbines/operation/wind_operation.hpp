@@ -27,20 +27,20 @@ struct Operation {
 /// @throws InputError for one that is empty or does not ascend, and for a wind beyond its ends
 Operation operation_at(const std::vector<Operation>& schedule, double wind);
 
-/// A machine of variable speed with controlled pitch: at its best tip-speed ratio and its least pitch as far as the
+/// A machine of variable speed with controlled pitch: at its best tip-speed ratio and its minimum pitch as far as the
 /// limits of the speed allow; where that gives more than rated power, at rated speed with the pitch that gives rated
 /// power.
 struct VariableSpeed {
     double tip_speed_ratio = 0;  ///< rotor speed x radius of the rotor / wind speed
-    double least_speed = 0;      ///< of the rotor, rad/s
+    double min_rotor_speed = 0;  ///< of the rotor, rad/s
     double rated_speed = 0;
-    double rated_power = 0;  ///< of the air on the rotor, W: that of the generator over its efficiency
-    double fine_pitch = 0;   ///< rad
-    std::vector<PitchAtWind> least_pitch = {};  ///< in the place of the fine pitch, where it depends on the wind
+    double rated_power = 0;                   ///< of the air on the rotor, W: that of the generator over its efficiency
+    double fine_pitch = 0;                    ///< rad
+    std::vector<PitchAtWind> min_pitch = {};  ///< in the place of the fine pitch, where it depends on the wind
 
     /// Rotor speed at the tip-speed ratio, within the limits; of a rotor with this radius, m.
     double speed_at(double wind, double radius) const;
-    double least_pitch_at(double wind) const { return least_pitch.empty() ? fine_pitch : pitch_at(least_pitch, wind); }
+    double min_pitch_at(double wind) const { return min_pitch.empty() ? fine_pitch : pitch_at(min_pitch, wind); }
     /// @throws InputError for values that are not positive, or speeds that do not ascend
     void check() const;
 };
@@ -83,7 +83,7 @@ struct WindOperationOptions {
     /// held (a tower that bends tilts it), and there is no gravity.
     int harmonics = 6;
     /// Number of azimuths of a revolution, for means and WindPoint::revolution. With a tower that changes the wind at
-    /// least MachineAir::least_azimuths(), and the harmonics are balanced at as many.
+    /// least MachineAir::min_azimuths(), and the harmonics are balanced at as many.
     int azimuths = 24;
     /// Called after every point; false: no further ones.
     std::function<bool(const WindPoint&)> progress = {};

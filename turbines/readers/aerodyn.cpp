@@ -172,7 +172,7 @@ double part_of_radius(OpenFastFile& file, const char* keyword, double otherwise)
 }
 
 std::vector<UnsteadyAirfoil> read_airfoils(OpenFastFile& file, std::vector<FileNote>& notes) {
-    const auto column = [&](const char* keyword, int least) { return file.integer(keyword, least, 100); };
+    const auto column = [&](const char* keyword, int min) { return file.integer(keyword, min, 100); };
     PolarColumns columns{column("InCol_Alfa", 1), column("InCol_Cl", 1), column("InCol_Cd", 1), column("InCol_Cm", 0)};
     if (!file.flag("UseBlCm")) columns.moment = 0;
     const auto paths = file.paths("AFNames", static_cast<std::size_t>(file.integer("NumAFfiles", 1, 100000)));

@@ -46,15 +46,15 @@ SteadyWind uniform_row(const std::vector<double>& row, const UniformWind& common
 
 // The numbers with which the line begins, as many as count.
 std::vector<double> numbers_of(std::string_view line, const std::string& file, int number) {
-    constexpr std::size_t least = 8, most = 9;
+    constexpr std::size_t min = 8, max = 9;
     std::vector<double> row;
     for (const std::string_view word : words_of(line.substr(0, line.find_first_of("!#%")))) {
         const auto value = fortran_number(word);
-        if (!value && row.size() < least) throw ParseError(file, number, 0, text("'", word, "' is not a number"));
-        if (!value || row.size() == most) break;
+        if (!value && row.size() < min) throw ParseError(file, number, 0, text("'", word, "' is not a number"));
+        if (!value || row.size() == max) break;
         row.push_back(*value);
     }
-    if (!row.empty() && row.size() < least)
+    if (!row.empty() && row.size() < min)
         throw ParseError(file, number, 0,
                          text("8 numbers expected, or 9 with an angle of upflow: time, speed, direction, vertical "
                               "speed, horizontal shear, exponent, linear shear, gust; found ",

@@ -102,7 +102,7 @@ void set_operation(TurbineFile& out, const ServoDyn& servo) {
     if (speed > 0 && is_possible(out, speed)) {
         out.rotor_speed = out.description.rotor_speed = speed;
         out.rotor_speed_source = servo.speed_source;
-        if (out.operation.least_speed == 0) out.operation.least_speed = servo.least_generator_speed / gears;
+        if (out.operation.min_rotor_speed == 0) out.operation.min_rotor_speed = servo.min_generator_speed / gears;
     } else if (speed > 0) {
         out.notes.push_back({servo.speed_source, 0, "rated speed", text(speed * units::to_rpm, " rpm of the rotor"),
                              "without meaning: the tips of the blades would be faster than sound"});

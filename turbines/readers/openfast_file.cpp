@@ -251,11 +251,11 @@ bool OpenFastFile::is_number(std::string_view keyword, double value) const {
            fortran_number(line->tokens.front().text) == value;
 }
 
-int OpenFastFile::integer(std::string_view keyword, int least, int most) {
+int OpenFastFile::integer(std::string_view keyword, int min, int max) {
     const double value = number(keyword);
-    if (value != std::round(value) || value < least || value > most)
+    if (value != std::round(value) || value < min || value > max)
         fail(keyword, cardan::text(keyword, " = ", value, "; allowed: ",
-                                   value != std::round(value) ? "a whole number, " : "", least, " ... ", most));
+                                   value != std::round(value) ? "a whole number, " : "", min, " ... ", max));
     return static_cast<int>(value);
 }
 

@@ -72,7 +72,7 @@ public:
     std::vector<double> numbers(std::string_view keyword, std::size_t count);
     /// Whether there is an entry of one value, this number, which then does not count as used.
     bool is_number(std::string_view keyword, double value) const;
-    int integer(std::string_view keyword, int least, int most);
+    int integer(std::string_view keyword, int min, int max);
     bool flag(std::string_view keyword);
     bool flag_or(std::string_view keyword, bool otherwise);
     std::string word(std::string_view keyword);

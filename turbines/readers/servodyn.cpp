@@ -15,8 +15,8 @@ namespace cardan::turbines {
 namespace {
 
 struct Generator {
-    double rated_speed = 0, least_speed = 0;  // rad/s
-    double torque = 0;                        // at the rated speed, N m
+    double rated_speed = 0, min_rotor_speed = 0;  // rad/s
+    double torque = 0;                            // at the rated speed, N m
     std::string source;
 };
 
@@ -103,7 +103,7 @@ TorqueLaw torque_law(OpenFastFile& file) {
 // Thevenin's equivalent circuit (2). Without its numbers there is none.
 SlippingGenerator slipping_generator(OpenFastFile& file, const Generator& machine) {
     const auto of = [&file](const char* keyword) { return file.number_or(keyword, 0); };
-    const double synchronous = machine.least_speed, slip = machine.rated_speed - synchronous;
+    const double synchronous = machine.min_rotor_speed, slip = machine.rated_speed - synchronous;
     if (!(synchronous > 0)) return {};
     if (slip > 0) return {synchronous, machine.torque / slip};
     const double magnetising = of("TEC_MR"), circuit = std::hypot(of("TEC_SRes"), of("TEC_SLR") + magnetising);
@@ -175,7 +175,7 @@ ServoDyn read_servodyn(const std::filesystem::path& path) {
     }
     if (machine.rated_speed > 0) {
         servo.rated_generator_speed = machine.rated_speed;
-        servo.least_generator_speed = machine.least_speed;
+        servo.min_generator_speed = machine.min_rotor_speed;
         servo.speed_source = machine.source;
     }
     for (const char* keyword : {"NumBStC", "NumNStC", "NumTStC", "NumSStC"})

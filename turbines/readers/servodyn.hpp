@@ -14,8 +14,8 @@ struct ServoDyn {
     /// generator at rated slip (SIG_SySp) or without slip (TEC_Freq, TEC_NPol), or of a ROSCO controller (PC_RefSpd of
     /// DLL_InFile). A number that three or more entries of generators have is a placeholder and not given.
     double rated_generator_speed = 0;
-    double least_generator_speed = 0;  ///< that of an induction generator without slip
-    std::string speed_source;          ///< the keyword and its file
+    double min_generator_speed = 0;  ///< that of an induction generator without slip
+    std::string speed_source;        ///< the keyword and its file
     /// Below rated power, leading edge upwind, rad, of a ROSCO controller (PC_FinePit); none: not given.
     std::optional<double> fine_pitch;
     std::vector<PitchAt> pitch_schedule;  ///< by speed of the rotor, of such a controller (PS_BldPitchMin)

@@ -61,11 +61,11 @@ struct PitchAt {
 
 /// Operation of the machine in the wind by its controller, as far as its file says so; 0 and empty: it does not.
 struct FileOperation {
-    double rated_power = 0;  ///< of the rotor, W: that on the generator's shaft, losses of a gearbox left out
-    double least_speed = 0;  ///< of the rotor, rad/s
+    double rated_power = 0;      ///< of the rotor, W: that on the generator's shaft, losses of a gearbox left out
+    double min_rotor_speed = 0;  ///< of the rotor, rad/s
     double tip_speed_ratio = 0;
     double gear_ratio = 0;  ///< that the file counts on
-    std::vector<PitchAtWind> least_pitch = {};
+    std::vector<PitchAtWind> min_pitch = {};
     std::string source = {};  ///< name of the file
 };
 

@@ -12,7 +12,7 @@ namespace cardan::turbines {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
-constexpr std::size_t most_columns = 1000;
+constexpr std::size_t max_columns = 1000;
 
 /// A stretch of a line without the blanks around it, and where it begins: character column from 1.
 struct Field {
@@ -139,8 +139,8 @@ CsvTable CsvTable::parse(std::string_view text_of_file, std::string_view file) {
     CsvTable table;
     table.file_ = file;
     table.header_line_ = header.number;
-    if (header.fields.size() > most_columns)
-        lines.fail(header.number, 0, text(header.fields.size(), " columns; allowed: at most ", most_columns));
+    if (header.fields.size() > max_columns)
+        lines.fail(header.number, 0, text(header.fields.size(), " columns; allowed: at most ", max_columns));
     for (const Field& f : header.fields) {
         const std::size_t bracket = f.text.find('[');
         const bool good = bracket != std::string_view::npos && bracket > 0 && f.text.ends_with(']');

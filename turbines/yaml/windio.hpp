@@ -26,7 +26,7 @@ namespace cardan::turbines {
 /// the blade's sections that is zero everywhere is the polar less the edgewise one, and noted.
 ///
 /// How the machine runs comes from `control` and `assembly`: rotor speed, the smallest of those that the file allows;
-/// rated power, over the efficiencies that it gives; least speed, tip-speed ratio, pitch.
+/// rated power, over the efficiencies that it gives; minimum rotor speed, tip-speed ratio, pitch.
 /// @param additions  windIO as well, with these entries alone
 /// @throws ParseError, FileError, InputError
 TurbineFile read_windio(const std::filesystem::path& path, const std::vector<ModelAddition>& additions = {});

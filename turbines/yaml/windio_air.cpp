@@ -15,8 +15,8 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr double one_place = 1e-4;          // of the length: closer places are one section
-constexpr std::size_t most_sections = 500;  // public files make up to 100
+constexpr double one_place = 1e-4;         // of the length: closer places are one section
+constexpr std::size_t max_sections = 500;  // public files make up to 100
 
 // An airfoil at a place of the blade.
 struct PlacedAirfoil {
@@ -184,8 +184,8 @@ private:
         std::vector<double> places = united(united(chords.grid, twists.grid), row.places());
         if (thickness) places = united(std::move(places), thickness->grid);
         places = section_places(places);
-        if (places.size() > most_sections)
-            axis.fail(text(places.size(), " sections of the blade; allowed: at most ", most_sections));
+        if (places.size() > max_sections)
+            axis.fail(text(places.size(), " sections of the blade; allowed: at most ", max_sections));
         AeroBlade& blade = out_.blade;
         for (const double place : places) {
             const AirfoilPair pair = row.at(place);

@@ -50,7 +50,7 @@ inline bool loses_all(const Annulus& annulus, const MomentumOptions& options) {
 inline constexpr double large_loss = 0.2;
 
 /// Whether a root of the balance between 0 and pi/2 is the one that solve_induction() takes.
-bool is_least_attack(const SectionInflow& at, const MomentumOptions& options, double root);
+bool is_min_attack(const SectionInflow& at, const MomentumOptions& options, double root);
 
 /// A step that rises from 0 to 1 as t goes there, with level ends.
 template <class S>
@@ -95,7 +95,7 @@ public:
         S F = 1;
         if (options_.tip_loss) F *= loss(annulus_.tip / abs(s));
         if (options_.hub_loss) F *= loss(annulus_.hub / abs(s));
-        if (!(value_of(F) >= least_loss)) F = least_loss;
+        if (!(value_of(F) >= min_loss)) F = min_loss;
         const S part = solidity_ / (4 * F * s);
         return {part * normal / s, options_.rotation ? part * driving : S(0), F, of_phi};
     }
@@ -141,7 +141,7 @@ public:
 private:
     S share_of(double none) const { return has_throughflow() ? blend<S>(none * V_x_ / V_y_ - 1) : S(0); }
 
-    static constexpr double least_loss = 1e-4;       // of F
+    static constexpr double min_loss = 1e-4;         // of F
     static constexpr double glauert_from = 2.0 / 3;  // k beyond which momentum theory fails
 
     // (2 / pi) acos exp(-x): 1 but for rounding where x is large.
@@ -164,8 +164,8 @@ struct Factors {
 };
 
 template <class S>
-S limited(const S& x, double least, double greatest) {
-    return value_of(x) < least ? S(least) : value_of(x) > greatest ? S(greatest) : x;
+S limited(const S& x, double min, double greatest) {
+    return value_of(x) < min ? S(min) : value_of(x) > greatest ? S(greatest) : x;
 }
 template <class S>
 Factors<S> factors_at(const Balance<S>& balance, const S& phi) {

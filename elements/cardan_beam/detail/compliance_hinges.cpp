@@ -6,7 +6,7 @@ namespace cardan {
 
 namespace {
 
-constexpr double least_distance = 0.05;  // of the length
+constexpr double min_distance = 0.05;  // of the length
 
 using Samples = PlanarElement::Samples;
 
@@ -26,9 +26,9 @@ HingePlaces symmetric(const PlanarElement& element) {
 
 // Moves both points apart about their middle, then into the element.
 HingePlaces apart(HingePlaces h, double L) {
-    if (h.second - h.first >= least_distance * L) return h;
-    const double middle = std::clamp((h.first + h.second) / 2, least_distance / 2 * L, (1 - least_distance / 2) * L);
-    return {middle - least_distance / 2 * L, middle + least_distance / 2 * L};
+    if (h.second - h.first >= min_distance * L) return h;
+    const double middle = std::clamp((h.first + h.second) / 2, min_distance / 2 * L, (1 - min_distance / 2) * L);
+    return {middle - min_distance / 2 * L, middle + min_distance / 2 * L};
 }
 
 // Zeros of z^2 - (third / second) z - second about the mean, with central moments: the orthogonal polynomial.
@@ -59,7 +59,7 @@ HingePlaces mean_difference_points(const PlanarElement& element) {
     const double last = (a * g - a2 * b) / (a + g - a2 - b);  // share of the length beyond the second hinge
     const double between = (a - last) * (a - last) / (a2 - last);
     const HingePlaces h{(1 - last - between) * L, (1 - last) * L};
-    const bool sound = h.first >= 0 && h.second <= L && h.second - h.first > least_distance * L;
+    const bool sound = h.first >= 0 && h.second <= L && h.second - h.first > min_distance * L;
     return sound ? h : gauss_points(element);
 }
 

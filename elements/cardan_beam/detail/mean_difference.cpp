@@ -42,13 +42,12 @@ public:
         const double limiter = feasible(shapes_) ? 1 : largest([&](double t) { return feasible(blend(t)); });
         if (limiter < 1e-6) return {hinges_, true_segments(), 0, 1};
         const Targets q = limiter < 1 ? blend(limiter) : shapes_;
-        const Least least = least_masses(q);
-        const double g1 = std::max(segment_[0](0), least.first / 0.75),
-                     g4 = std::max(segment_[2](0), least.last / 0.75);
+        const Minima min = min_masses(q);
+        const double g1 = std::max(segment_[0](0), min.first / 0.75), g4 = std::max(segment_[2](0), min.last / 0.75);
         const auto masses = [&](double tau) {
-            return Least{least.first + tau * (g1 - least.first), least.last + tau * (g4 - least.last)};
+            return Minima{min.first + tau * (g1 - min.first), min.last + tau * (g4 - min.last)};
         };
-        const Rest at_least = rest(q, least);
+        const Rest at_least = rest(q, min);
         const auto sound = [&](double tau) {
             const Rest r = rest(q, masses(tau));
             return r.mass > at_least.mass / 4 && inside(r) && r.own() >= at_least.own() / 4;
@@ -58,20 +57,20 @@ public:
     }
 
 private:
-    struct Least {
+    struct Minima {
         double first, last;
     };
 
     Targets blend(double t) const { return true_ + t * (shapes_ - true_); }
 
     // Masses of B1 and B4 below which their own inertia is negative or their centre outside the element.
-    Least least_masses(const Targets& q) const {
+    Minima min_masses(const Targets& q) const {
         const double P2 = q(0), Q1 = q(1), x1 = hinges_.first, x2 = hinges_.second, tiny = 1e-9 * L_;
         return {std::max({Q1 * Q1 / q(3), Q1 / std::max(x1, tiny), -Q1 / (L_ - x1)}),
                 std::max({P2 * P2 / q(2), P2 / std::max(L_ - x2, tiny), -P2 / x2})};
     }
 
-    Rest rest(const Targets& q, const Least& m) const {
+    Rest rest(const Targets& q, const Minima& m) const {
         const double P2 = q(0), Q1 = q(1), c = middle_, a = hinges_.first - c, e = hinges_.second - c;
         const double M = all_(0), S = all_(1) - c * M, I = all_(2) - 2 * c * all_(1) + c * c * M;
         return {M - m.first - m.last, S - (m.first * a - Q1) - (m.last * e + P2),
@@ -82,7 +81,7 @@ private:
 
     bool feasible(const Targets& q) const {
         if (!(q(2) > 0 && q(3) > 0)) return false;
-        const Rest r = rest(q, least_masses(q));
+        const Rest r = rest(q, min_masses(q));
         const double spread = all_(0) * all_(2) - all_(1) * all_(1);
         return r.mass > 0.02 * all_(0) && inside(r) && r.mass * r.second - r.first * r.first >= 1e-3 * spread;
     }
@@ -98,7 +97,7 @@ private:
         return good;
     }
 
-    std::array<PlanarBody, 3> bodies(const Targets& q, const Least& m) const {
+    std::array<PlanarBody, 3> bodies(const Targets& q, const Minima& m) const {
         const Rest r = rest(q, m);
         return {{{m.first, hinges_.first - q(1) / m.first, q(3) - q(1) * q(1) / m.first},
                  {r.mass, middle_ + r.first / r.mass, r.own()},

@@ -10,12 +10,12 @@ constexpr Eigen::Index points_per_piece = 12;
 
 // Pieces between the inner breaks, at least about four: running integrals are less accurate than full ones.
 std::vector<double> pieces(double length, const std::vector<double>& breaks) {
-    constexpr std::size_t least = 4;
+    constexpr std::size_t min = 4;
     std::vector<double> ends{0};
     for (double b : breaks)
         if (b > ends.back() + 1e-9 * length && b < length * (1 - 1e-9)) ends.push_back(b);
     ends.push_back(length);
-    const std::size_t smooth = ends.size() - 1, parts = std::max<std::size_t>(1, (least + smooth - 1) / smooth);
+    const std::size_t smooth = ends.size() - 1, parts = std::max<std::size_t>(1, (min + smooth - 1) / smooth);
     std::vector<double> all{0};
     for (std::size_t i = 0; i < smooth; ++i)
         for (std::size_t k = 1; k <= parts; ++k)

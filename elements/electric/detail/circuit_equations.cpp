@@ -9,7 +9,7 @@ namespace cardan::detail {
 
 namespace {
 
-using Gradient = std::array<double, ControlSignal::most_sources>;
+using Gradient = std::array<double, ControlSignal::max_sources>;
 
 }  // namespace
 

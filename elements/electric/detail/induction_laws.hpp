@@ -169,8 +169,8 @@ struct DoublyFed {
     Phasor<S> demanded(const Phasor<S>& flux, const S& torque, const S& reactive) const {
         using std::sqrt;
         const MachineConstants& c = induction.machine;
-        const double least = std::pow(0.1 * c.grid.peak() / c.omega, 4);
-        const S square = dot(flux, flux), floored = sqrt(square * square + least);
+        const double min = std::pow(0.1 * c.grid.peak() / c.omega, 4);
+        const S square = dot(flux, flux), floored = sqrt(square * square + min);
         const S along = (1.0 + reactive * c.L_s / (1.5 * c.omega * floored)) / c.L_m,
                 across = torque * c.L_s / (1.5 * c.pole_pairs * c.L_m * floored);
         return product(Phasor<S>{along, across}, flux);

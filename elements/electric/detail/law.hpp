@@ -25,7 +25,7 @@ struct LawInput {
 template <class Law>
 class LawFunctions {
 public:
-    static constexpr std::size_t most = 32;  ///< values that the law sees
+    static constexpr std::size_t max = 32;  ///< values that the law sees
 
     LawFunctions(Law law, const std::vector<ControlSignal>& demands, ForceElement& element)
         : law_(std::move(law)), coordinates_(element.coordinates.size()), states_(element.states.size()) {
@@ -34,8 +34,8 @@ public:
 
     void rates(const ElementView& in, VectorOut& Q, VectorOut& f) const {
         Gradients gradients;
-        const std::array<double, most> x = values<double>(in, gradients);
-        std::array<double, most> out{};
+        const std::array<double, max> x = values<double>(in, gradients);
+        std::array<double, max> out{};
         law_(at(in.time, x), out.data(), out.data() + coordinates_);
         for (std::size_t row = 0; row < coordinates_; ++row) Q(index(row)) += out[row];
         for (std::size_t row = 0; row < states_; ++row) f(index(row)) += out[coordinates_ + row];
@@ -44,10 +44,10 @@ public:
     void jacobian(const ElementView& in, ElementJacobian& d) const {
         constexpr double step = 1e-40;
         Gradients gradients;
-        std::array<Complex, most> x = values<Complex>(in, gradients);
+        std::array<Complex, max> x = values<Complex>(in, gradients);
         for (std::size_t column = 0; column < 2 * coordinates_ + states_ + demands_.size(); ++column) {
             x[column] += Complex(0, step);
-            std::array<Complex, most> out{};
+            std::array<Complex, max> out{};
             law_(at(in.time, x), out.data(), out.data() + coordinates_);
             x[column] = x[column].real();
             for (std::size_t row = 0; row < coordinates_ + states_; ++row)
@@ -58,25 +58,25 @@ public:
     const Law& law() const { return law_; }
     /// Values as the law sees them.
     template <class S>
-    std::array<S, most> values(const ElementView& in) const {
+    std::array<S, max> values(const ElementView& in) const {
         Gradients gradients;
         return values<S>(in, gradients);
     }
     template <class S>
-    LawInput<S> at(double time, const std::array<S, most>& x) const {
+    LawInput<S> at(double time, const std::array<S, max>& x) const {
         const S* p = x.data();
         return {time, p, p + coordinates_, p + 2 * coordinates_, p + 2 * coordinates_ + states_};
     }
 
 private:
-    using Gradient = std::array<double, ControlSignal::most_sources>;
+    using Gradient = std::array<double, ControlSignal::max_sources>;
     using Gradients = std::array<Gradient, 4>;
 
     static Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
     template <class S>
-    std::array<S, most> values(const ElementView& in, Gradients& gradients) const {
-        std::array<S, most> x{};
+    std::array<S, max> values(const ElementView& in, Gradients& gradients) const {
+        std::array<S, max> x{};
         std::size_t n = 0;
         for (std::size_t i = 0; i < coordinates_; ++i) x[n++] = in.q(index(i));
         for (std::size_t i = 0; i < coordinates_; ++i) x[n++] = in.qd(index(i));

@@ -15,9 +15,9 @@ namespace {
 using Index = Eigen::Index;
 using Kind = ShapeFunctions::Kind;
 
-void check_count(const std::string& name, const char* of, int count, int least, int most) {
-    if (count < least || count > most)
-        throw InputError(name, text("assumed functions of ", of), count, text(least, " ... ", most));
+void check_count(const std::string& name, const char* of, int count, int min, int max) {
+    if (count < min || count > max)
+        throw InputError(name, text("assumed functions of ", of), count, text(min, " ... ", max));
 }
 
 std::vector<double> pieces(const BeamLine& line, const AssumedModesBasis& basis) {
@@ -58,9 +58,9 @@ struct Local {
     Eigen::Matrix<double, 6, Eigen::Dynamic> state;   // SectionState
     Eigen::Matrix<double, 4, Eigen::Dynamic> strain;  // u', phi', -w'', v''
 
-    explicit Local(std::size_t most)
-        : state(decltype(state)::Zero(6, static_cast<Index>(most))),
-          strain(decltype(strain)::Zero(4, static_cast<Index>(most))) {}
+    explicit Local(std::size_t max)
+        : state(decltype(state)::Zero(6, static_cast<Index>(max))),
+          strain(decltype(strain)::Zero(4, static_cast<Index>(max))) {}
     // Calls set(column, k) for function k of the values.
     template <class Set>
     void add(const ShapeValues& values, Index first, const Set& set) {

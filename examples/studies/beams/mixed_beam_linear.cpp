@@ -155,7 +155,7 @@ struct NewtonResult {
 
 // Improves x, all in the scales of the beam.
 NewtonResult newton(const MixedBeam& beam, const MixedSetting& setting, Vector& x) {
-    constexpr int most = 30;
+    constexpr int max = 30;
     const Vector columns = beam.unknown_scales(), rows = all_equation_scales(beam, setting);
     const Vector rest = Vector::Zero(beam.unknowns());
     for (int i = 0;; ++i) {
@@ -163,7 +163,7 @@ NewtonResult newton(const MixedBeam& beam, const MixedSetting& setting, Vector& 
         const double residual = r.lpNorm<Eigen::Infinity>();
         // Rounding leaves a few units of the largest unknown.
         if (residual <= 1e-13 * (1 + x.cwiseQuotient(columns).lpNorm<Eigen::Infinity>())) return {true, i, residual};
-        if (i == most || !std::isfinite(residual)) return {false, i, residual};
+        if (i == max || !std::isfinite(residual)) return {false, i, residual};
         const Matrix A = rows.cwiseInverse().asDiagonal() * mixed_pencil(beam, setting, x).A * columns.asDiagonal();
         x -= columns.cwiseProduct(solve(A, r));
     }

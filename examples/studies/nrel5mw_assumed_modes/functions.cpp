@@ -6,10 +6,10 @@ namespace cardan::paper2018 {
 
 namespace {
 
-constexpr int most_pieces = 48;  // as many as there are from station to station
+constexpr int max_pieces = 48;  // as many as there are from station to station
 
-void check(const char* option, const char* what, int value, int least, int most) {
-    if (value < least || value > most) throw InputError(option, what, value, text(least, " ... ", most));
+void check(const char* option, const char* what, int value, int min, int max) {
+    if (value < min || value > max) throw InputError(option, what, value, text(min, " ... ", max));
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ AssumedModesBasis Functions::basis(double length) const {
     const bool sines = torsion_by == "sines";
     check("--bending", "polynomials per piece", bending, 2, 9);
     check("--torsion", sines ? "sines" : "polynomials per piece", torsion, 1, sines ? 40 : 9);
-    check("--pieces", "number", pieces, 0, most_pieces);
+    check("--pieces", "number", pieces, 0, max_pieces);
     AssumedModesBasis basis{.bending = bending, .torsion = torsion, .extension = 0, .sines = sines};
     for (int i = 0; i < pieces; ++i) basis.breaks.push_back(length * i / pieces);
     if (pieces > 0) basis.breaks.push_back(length);

@@ -82,7 +82,7 @@ Plant plant(const MachineOptions& options, double wind) {
 }
 
 turbines::ActuatorOptions pitch_actuators() {
-    return {.pitch_frequency = 2 * pi * 2, .pitch_damping = 0.7, .largest_pitch_rate = 8 * units::degree};
+    return {.pitch_frequency = 2 * pi * 2, .pitch_damping = 0.7, .max_pitch_rate = 8 * units::degree};
 }
 
 turbines::Turbine open_loop(const Plant& plant) {
@@ -116,7 +116,7 @@ LinearLoop linear_loop(const Plant& plant, const DamperOptions& damper) {
     ForceSet more;
     const ControlSignal damping = add_damper(damper, plant, more);
     turbines::ActuatorOptions actuators = pitch_actuators();
-    actuators.largest_torque_rate = parameters.largest_torque_rate;
+    actuators.max_torque_rate = parameters.max_torque_rate;
     ForceSet forces = turbines::ActuatedForces(plant.turbine, actuators)
                           .with_demands({{loop.pitch}, loop.torque + damping}, plant.point.torque);
     for (const ForceElement& element : more.elements()) forces.add_element(element);

@@ -32,10 +32,10 @@ double controller_torque(double rotor_speed) {
 }
 
 double torque_in_trim(double wind) {
-    const double most = rated_power / rated_speed;
-    if (wind >= rated_wind) return most;
+    const double max = rated_power / rated_speed;
+    if (wind >= rated_wind) return max;
     const double speed = best_tip_speed_ratio * wind / radius;
-    return std::min(most, turbines::nrel5mw_controller().optimal_gain * std::pow(gear_ratio, 3) * speed * speed);
+    return std::min(max, turbines::nrel5mw_controller().optimal_gain * std::pow(gear_ratio, 3) * speed * speed);
 }
 
 }  // namespace

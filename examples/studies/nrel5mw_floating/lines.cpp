@@ -11,7 +11,7 @@ namespace cardan::floating {
 
 namespace {
 
-constexpr int most_multiple = 3;  // of the rotor's frequency: three blades
+constexpr int max_multiple = 3;  // of the rotor's frequency: three blades
 
 // |sign * motion + multiple * rotor|
 struct Neighbour {
@@ -33,9 +33,9 @@ bool same(double a, double b) {
 // What is of first order in the motions, and gravity's.
 std::vector<Neighbour> first_order(const std::vector<double>& motions_hz, double rotor_hz) {
     std::vector<Neighbour> list;
-    list.reserve((2 * most_multiple + 1) * (motions_hz.size() + 1));
+    list.reserve((2 * max_multiple + 1) * (motions_hz.size() + 1));
     for (const double f : motions_hz) list.push_back({f, 1, 0});
-    for (int n = 1; rotor_hz != 0 && n <= most_multiple; ++n) {
+    for (int n = 1; rotor_hz != 0 && n <= max_multiple; ++n) {
         list.push_back({n * rotor_hz, 0, n});
         for (const double f : motions_hz) {
             list.push_back({std::abs(n * rotor_hz - f), -1, n});
@@ -66,7 +66,7 @@ Lines response_lines(const std::vector<double>& motions_hz, double rotor_hz, dou
     const std::vector<double> own(lines.hz.begin(), lines.hz.begin() + static_cast<std::ptrdiff_t>(lines.own));
     for (const double a : own)
         for (const double b : own)
-            for (int n = rotor_hz == 0 ? 0 : -most_multiple; n <= (rotor_hz == 0 ? 0 : most_multiple); ++n)
+            for (int n = rotor_hz == 0 ? 0 : -max_multiple; n <= (rotor_hz == 0 ? 0 : max_multiple); ++n)
                 for (const double second : {a + b, a - b}) add_resolved(std::abs(second + n * rotor_hz));
     return lines;
 }

@@ -44,8 +44,8 @@ std::vector<std::string> motions(const turbines::Turbine& machine, const solvers
     std::vector<std::string> moving;
     for (const BodyId body : bodies) {
         const std::string& name = model.coordinates()[model.index(body)].name;
-        const auto [least, most] = std::ranges::minmax(history[name]);
-        if (least < most) moving.push_back(name);
+        const auto [min, max] = std::ranges::minmax(history[name]);
+        if (min < max) moving.push_back(name);
     }
     return moving;
 }

@@ -71,7 +71,7 @@ Response periodic_response(solvers::Integrator& integrator, solvers::Recorder& r
         return end.reached();
     };
     solvers::History before;
-    for (int period = 1; period <= options.most_periods && !response.settled && !response.stalled; ++period) {
+    for (int period = 1; period <= options.max_periods && !response.settled && !response.stalled; ++period) {
         solvers::History now;
         if (!run(stride * compared, now)) return response;
         response.changes.push_back(change(before, now, options.compared, static_cast<std::size_t>(stride)));

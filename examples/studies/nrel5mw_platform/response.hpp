@@ -18,7 +18,7 @@ struct ResponseOptions {
     double period = 0;                       ///< s, that is compared with the one before
     std::vector<std::string> compared = {};  ///< channels: deflections
     double settled = 5e-6;                   ///< largest change of these from one period to the next, m
-    int most_periods = 300;                  ///< then it ends unsettled
+    int max_periods = 300;                   ///< then it ends unsettled
     double step = 0.1;                       ///< largest time between rows up to the last period, s
     int samples = 720;                       ///< of the last period
     std::function<void(int period, double change)> progress = {};

@@ -50,14 +50,14 @@ hid_t registered() {
 /// Limits HDF5's cache of metadata, which by itself grows from 2 to 32 MiB and would let a long run take more memory
 /// the longer it gets. With 64 KiB none is seen over 4e6 steps.
 inline bool limit_metadata_cache(hid_t access_list) {
-    constexpr std::size_t most = 65536;  // bytes
+    constexpr std::size_t max = 65536;  // bytes
     H5AC_cache_config_t config{};
     config.version = H5AC__CURR_CACHE_CONFIG_VERSION;
     if (H5Pget_mdc_config(access_list, &config) < 0) return false;
     config.set_initial_size = true;
-    config.initial_size = most;
-    config.max_size = most;
-    config.min_size = most / 2;
+    config.initial_size = max;
+    config.max_size = max;
+    config.min_size = max / 2;
     return H5Pset_mdc_config(access_list, &config) >= 0;
 }
 

@@ -26,9 +26,9 @@ class Bytes {
 public:
     Bytes(const Hdf5File::Impl& impl, const std::string& name, std::uint64_t address, std::uint64_t size)
         : impl_(impl), name_(name) {
-        constexpr std::uint64_t most = std::uint64_t{1} << 28;
+        constexpr std::uint64_t max = std::uint64_t{1} << 28;
         const std::uint64_t end = impl.journal->size();
-        if (size > most || address > end || size > end - address) damaged("a part lies behind the end of the file");
+        if (size > max || address > end || size > end - address) damaged("a part lies behind the end of the file");
         bytes_.resize(size);
         if (impl.journal->read(address, bytes_) != 0) damaged("a part cannot be read");
     }
@@ -84,8 +84,8 @@ public:
         Bytes start(impl_, name_, address, std::min<std::uint64_t>(before + 8, longest_prefix));
         start.skip(before);
         parts_ = {{address + before + static_cast<std::uint64_t>(width), start.number(width)}};
-        constexpr std::size_t most_parts = 10000;
-        for (std::size_t k = 0; k < parts_.size() && k < most_parts && !found_; ++k) part(parts_[k]);
+        constexpr std::size_t max_parts = 10000;
+        for (std::size_t k = 0; k < parts_.size() && k < max_parts && !found_; ++k) part(parts_[k]);
         if (!found_) start.damaged("its header does not say where its values are");
         return *found_;
     }
@@ -150,7 +150,7 @@ public:
         if (node.number(1) != 1) node.damaged("the index is not one of chunks");
         const std::uint64_t own = node.number(1), entries = node.number(2);
         if (own > highest || (level && own != *level)) node.damaged("a node of the index has a wrong level");
-        if (entries > most_entries || (entries == 0 && level)) node.damaged("a node of the index has a wrong length");
+        if (entries > max_entries || (entries == 0 && level)) node.damaged("a node of the index has a wrong length");
         node.skip(16);  // neighbours, which are not asked for
         for (std::uint64_t k = 0; k < entries; ++k) {
             const std::uint64_t bytes = key(node, false), child = node.number(8);
@@ -165,8 +165,8 @@ public:
     [[nodiscard]] std::uint64_t chunks() const { return chunks_; }
 
 private:
-    static constexpr std::uint64_t most_entries = 64, highest = 8, key_size = 24;
-    static constexpr std::uint64_t node_size = 24 + most_entries * (key_size + 8) + key_size;
+    static constexpr std::uint64_t max_entries = 64, highest = 8, key_size = 24;
+    static constexpr std::uint64_t node_size = 24 + max_entries * (key_size + 8) + key_size;
     static constexpr std::uint64_t checksum_size = 4, only_without_deflate = 2;
 
     // Bytes of the chunk that the key stands for. The last key of a node stands for none and lies behind the last

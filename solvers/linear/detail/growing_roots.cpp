@@ -11,7 +11,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr int most_points = 400;
+constexpr int max_points = 400;
 constexpr double largest_turn = 1;  // rad
 constexpr double no_pair = 1e-9;    // of an eigenvalue: imaginary parts that are rounding
 
@@ -49,7 +49,7 @@ private:
 std::optional<double> turn(Phase& phase, const std::function<Complex(double)>& path, double from, Complex at_from,
                            double to, Complex at_to) {
     const double direct = std::arg(at_to / at_from);
-    if (phase.points() > most_points || !std::isfinite(direct)) return {};
+    if (phase.points() > max_points || !std::isfinite(direct)) return {};
     const double middle = (from + to) / 2;
     const Complex at_middle = phase.at(path(middle));
     const double first = std::arg(at_middle / at_from), second = std::arg(at_to / at_middle);

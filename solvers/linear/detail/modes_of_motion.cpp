@@ -18,7 +18,7 @@ using Index = Eigen::Index;
 
 // Relative change of an eigenvalue in the last iteration: these converge cubically.
 constexpr double small_change = 1e-5;
-constexpr int most_iterations = 8;
+constexpr int max_iterations = 8;
 // Beside the eigenvalue, so that the shifted matrix can be inverted.
 constexpr double beside = 1e-9;
 // Imaginary parts that are rounding.
@@ -109,7 +109,7 @@ bool Follow::iterate(double t, Root& root) {
         own_.loads = t * whole_.loads;
         reached_ = t;
     }
-    for (int i = 0; i < most_iterations; ++i) {
+    for (int i = 0; i < max_iterations; ++i) {
         const Complex sigma = root.lambda + Complex(1, 1) * (beside * std::abs(root.lambda) + 1e-12);
         shifted_.set(sigma);
         if (root.left.size() == 0) {

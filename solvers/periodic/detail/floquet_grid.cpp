@@ -7,8 +7,8 @@ namespace cardan::solvers {
 
 namespace {
 
-int smallest_divisor(int number, int least) {
-    for (int d = std::max(least, 1); d < number; ++d)
+int smallest_divisor(int number, int min) {
+    for (int d = std::max(min, 1); d < number; ++d)
         if (number % d == 0) return d;
     return number;
 }
@@ -23,26 +23,26 @@ double log_error_coefficient(int stages) {
 // exponent; as many at least as motions that are half as fast again need as samples, and no more than make a method of
 // low order worth while: from there errors are found out.
 double steps_per_motion(const FloquetOptions& options) {
-    constexpr double least = 3.2, most = 4, part = 0.1;
-    if (options.transition.method != TransitionMethod::radau) return most;
+    constexpr double min = 3.2, max = 4, part = 0.1;
+    if (options.transition.method != TransitionMethod::radau) return max;
     const int stages = options.transition.stages;
     const double log_z =
         (std::log(part * options.tolerance) - log_error_coefficient(stages)) / std::max(1, 2 * stages - 1);
-    return std::clamp(2 * pi * std::exp(-log_z), least, most);
+    return std::clamp(2 * pi * std::exp(-log_z), min, max);
 }
 
 FloquetGrid refined_grid(const FloquetOptions& options) {
     const int Q = options.symmetry.parts;
     const int wanted = static_cast<int>(std::ceil((steps_per_motion(options) * options.per_period + 8) / Q)),
-              most = std::max(1, std::min(options.factors, wanted / FloquetGrid::first_ratio));
+              max = std::max(1, std::min(options.factors, wanted / FloquetGrid::first_ratio));
     // Somewhat fewer factors may need fewer samples, as long as no motion turns by more over one than this, rad: it is
     // damped by as much at most.
     constexpr double largest_turn = 16;
     const double turn = 2 * pi * options.per_period / Q;
     FloquetGrid best{0, 0, 0};
-    for (int factors = most; 2 * factors > most; --factors) {
+    for (int factors = max; 2 * factors > max; --factors) {
         const int each = FloquetGrid::first_ratio * factors, samples = (wanted + each - 1) / each * each;
-        if (factors < most && (factors * largest_turn < turn || samples >= best.samples)) continue;
+        if (factors < max && (factors * largest_turn < turn || samples >= best.samples)) continue;
         best = {samples, factors, 0};
     }
     return best;

@@ -17,7 +17,7 @@ using Index = Eigen::Index;
 constexpr double small_share = 1e-3;
 // Of pivots; below, a matrix counts as singular; what that means is left to Newton's method, unless it is that nothing
 // holds a mean.
-constexpr double least_ratio = 1e-13, nothing_holds = 1e-12;
+constexpr double min_ratio = 1e-13, nothing_holds = 1e-12;
 
 // T turns its columns by so many harmonics.
 int highest_harmonic(const ColemanTransform& transform) {
@@ -159,7 +159,7 @@ const ShiftedStates* MeanJacobian::factors(int harmonic) {
         known = factors_.try_emplace(harmonic, harmonic == 0 ? *held_mean_ : *moving_).first;
         known->second.set(Complex(0, harmonic * rotor_speed_));
     }
-    if (known->second.pivot_ratio() > least_ratio) return &known->second;
+    if (known->second.pivot_ratio() > min_ratio) return &known->second;
     if (harmonic > 0 || !hold_open(known->second.real_part())) return nullptr;
     factors_.erase(known);
     return factors(0);

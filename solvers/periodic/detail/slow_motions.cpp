@@ -36,8 +36,8 @@ class SlowSearch {
     static constexpr double largest_share = 0.7;
     // Changes that are rounding or a small part of the tolerance, and such that iterations do not reduce: those that
     // are left of higher harmonics.
-    static constexpr double rounding = 1e-13, settled = 0.03, least_reduction = 0.8;
-    static constexpr int most_iterations = 60, patience = 4;
+    static constexpr double rounding = 1e-13, settled = 0.03, min_reduction = 0.8;
+    static constexpr int max_iterations = 60, patience = 4;
     static constexpr Index remembered = 6;
 
 public:
@@ -54,8 +54,8 @@ public:
 
     // As few as a gap tells from the rest, wide enough for so many harmonics; 0 if there is none.
     Index slow_coordinates(double frequency, int harmonics) const {
-        const Index n = system_.rows(), most = static_cast<Index>(largest_share * static_cast<double>(n));
-        for (Index m = 1; m <= most; ++m) {
+        const Index n = system_.rows(), max = static_cast<Index>(largest_share * static_cast<double>(n));
+        for (Index m = 1; m <= max; ++m) {
             double last = 0, next = std::numeric_limits<double>::infinity();
             for (const SlowAzimuth& a : azimuths_) {
                 last = std::max(last, a.squares(m - 1));
@@ -77,12 +77,12 @@ public:
         m_ = slow;
         start();
         extend(X_);
-        const int most = 2 * harmonics_ - 1;
-        const Matrix series = fourier_coefficients(X_.all, most);
+        const int max = 2 * harmonics_ - 1;
+        const Matrix series = fourier_coefficients(X_.all, max);
         // Of two neighbours: there may be even ones or odd ones only.
         const auto size = [&](int j) { return series.middleCols(2 * j - 3, 4).cwiseAbs().maxCoeff(); };
         const double last = size(harmonics_);
-        return {last, std::log(last / std::max(size(most), 0.01 * rounding)) / (most - harmonics_)};
+        return {last, std::log(last / std::max(size(max), 0.01 * rounding)) / (max - harmonics_)};
     }
     // Of the last attempt; infinite if the iteration has not come to an end.
     double error() const { return error_; }
@@ -94,12 +94,12 @@ public:
         Anderson anderson(scales.size(), remembered);
         double best = std::numeric_limits<double>::infinity();
         int since = 0;
-        for (int i = 0; i < most_iterations; ++i) {
+        for (int i = 0; i < max_iterations; ++i) {
             smooth(X_), smooth(Y_);
             const Vector before = unknowns().cwiseProduct(scales);
             const double change = iterate();
             if (!std::isfinite(change)) return std::nullopt;
-            since = change > least_reduction * best ? since + 1 : 0;
+            since = change > min_reduction * best ? since + 1 : 0;
             if (change < std::max(rounding, settled * tolerance) || since >= patience) return result(tolerance);
             best = std::min(best, change);
             set_unknowns(anderson.next(before, unknowns().cwiseProduct(scales) - before).cwiseQuotient(scales));
@@ -298,13 +298,13 @@ std::optional<SlowMotions> SlowMotions::find(const PeriodicSystem& system, const
                                              double frequency, double tolerance) {
     if (!system.is_second_order() || system.states_beside() > 0) return std::nullopt;
     // Errors fall geometrically with the harmonics, as those of the eigenvectors at every azimuth do.
-    constexpr int least = 12, most = 48, attempts = 2;
+    constexpr int min = 12, max = 48, attempts = 2;
     constexpr double doubt = 0.1;
     const int step = symmetry.parts / std::gcd(4, symmetry.parts);
     const auto rounded = [&](double harmonics) {
-        return step * static_cast<int>(std::ceil(std::min(harmonics, 2.0 * most) / step));
+        return step * static_cast<int>(std::ceil(std::min(harmonics, 2.0 * max) / step));
     };
-    const int first = rounded(least);
+    const int first = rounded(min);
     int harmonics = first;
     std::optional<SlowSearch> search(std::in_place, system, symmetry, harmonics);
     double decay = 0;
@@ -316,7 +316,7 @@ std::optional<SlowMotions> SlowMotions::find(const PeriodicSystem& system, const
         if (!(found.last > doubt * tolerance)) break;
         if (!(decay > 0)) return std::nullopt;
         harmonics = std::max(harmonics, rounded(first + std::log(found.last / (doubt * tolerance)) / decay));
-        if (harmonics > most) return std::nullopt;
+        if (harmonics > max) return std::nullopt;
     }
     for (int attempt = 0; attempt < attempts; ++attempt) {
         if (attempt > 0 || harmonics > first) search.emplace(system, symmetry, harmonics);
@@ -325,7 +325,7 @@ std::optional<SlowMotions> SlowMotions::find(const PeriodicSystem& system, const
         if (std::optional<SlowMotions> found = search->find(slow, tolerance)) return found;
         if (!(search->error() < 1) || !(decay > 0)) return std::nullopt;
         harmonics = rounded(harmonics + std::log(search->error() / (doubt * tolerance)) / decay);
-        if (harmonics > most || search->slow_coordinates(frequency, harmonics) == 0) return std::nullopt;
+        if (harmonics > max || search->slow_coordinates(frequency, harmonics) == 0) return std::nullopt;
     }
     return std::nullopt;
 }

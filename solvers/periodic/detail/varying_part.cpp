@@ -14,7 +14,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr int most_harmonics = 8;
+constexpr int max_harmonics = 8;
 
 // Square roots of K_ii + f^p M_ii and f^p, for the matrix of which f^p is compared with K.
 struct MatrixScale {
@@ -34,16 +34,16 @@ Matrix scaled(const Vector& left, const Matrix& A, const MatrixScale& own) {
     return own.factor * left.cwiseInverse().asDiagonal() * A * own.root.cwiseInverse().asDiagonal();
 }
 
-// An orthonormal basis of columns down to a norm, and to rounding; one vector more than wanted if `most` do not
+// An orthonormal basis of columns down to a norm, and to rounding; one vector more than wanted if `max` do not
 // suffice.
-Matrix basis_of_columns(Matrix columns, double least, Index most) {
-    constexpr double least_share = 1e-14;
-    Matrix basis(columns.rows(), most + 1);
+Matrix basis_of_columns(Matrix columns, double min, Index max) {
+    constexpr double min_share = 1e-14;
+    Matrix basis(columns.rows(), max + 1);
     if (columns.cols() == 0) return basis.leftCols(0);
-    least = std::max(least, least_share * columns.colwise().norm().maxCoeff());
-    for (Index r = 0; r <= most; ++r) {
+    min = std::max(min, min_share * columns.colwise().norm().maxCoeff());
+    for (Index r = 0; r <= max; ++r) {
         Index longest = 0;
-        if (!(columns.colwise().squaredNorm().maxCoeff(&longest) > least * least)) return basis.leftCols(r);
+        if (!(columns.colwise().squaredNorm().maxCoeff(&longest) > min * min)) return basis.leftCols(r);
         Vector next = columns.col(longest);
         for (int twice = 0; twice < 2; ++twice) {
             next.normalize();
@@ -61,14 +61,14 @@ Matrix basis_of_columns(Matrix columns, double least, Index most) {
 
 std::optional<VaryingPart> VaryingPart::find(const PeriodicSystem& system, double frequency, double tolerance) {
     if (!system.is_second_order() || system.states_beside() > 0) return std::nullopt;
-    const Index n = system.rows(), most = n / 2;
+    const Index n = system.rows(), max = n / 2;
     Matrix values(3 * n * n, azimuths);
     SecondOrderSystem at;
     for (int i = 0; i < azimuths; ++i) {
         system.at(system.period() * i / azimuths, at);
         values.col(i) << at.M.reshaped(), at.C.reshaped(), at.K.reshaped();
     }
-    const Matrix series = fourier_coefficients(values, most_harmonics);
+    const Matrix series = fourier_coefficients(values, max_harmonics);
     const auto matrix = [&](Index harmonic, Index which) {
         return series.col(harmonic).segment(which * n * n, n * n).reshaped(n, n);
     };
@@ -76,7 +76,7 @@ std::optional<VaryingPart> VaryingPart::find(const PeriodicSystem& system, doubl
     out.mean_.M = matrix(0, 0), out.mean_.C = matrix(0, 1), out.mean_.K = matrix(0, 2);
     const MatrixScales of = matrix_scales(out.mean_, frequency);
     const Vector& scale = of[2].root;
-    const double least = 0.1 * tolerance;
+    const double min = 0.1 * tolerance;
     Matrix columns(n, 6 * n * (series.cols() - 1));
     Index filled = 0;
     for (Index j = 1; j < series.cols(); ++j)
@@ -84,14 +84,14 @@ std::optional<VaryingPart> VaryingPart::find(const PeriodicSystem& system, doubl
             const Matrix A = matrix(j, k);
             for (const Matrix& one : {A, Matrix(A.transpose())}) {
                 const Matrix some = scaled(scale, one, entry(of, k));
-                if (!(some.cwiseAbs().maxCoeff() > 0.1 * least)) continue;
+                if (!(some.cwiseAbs().maxCoeff() > 0.1 * min)) continue;
                 columns.middleCols(filled, n) = some;
                 filled += n;
             }
         }
     columns.conservativeResize(n, filled);
-    const Matrix Q = basis_of_columns(std::move(columns), least, most);
-    if (Q.cols() > most) return std::nullopt;
+    const Matrix Q = basis_of_columns(std::move(columns), min, max);
+    if (Q.cols() > max) return std::nullopt;
     const Index r = Q.cols();
     out.B_ = scale.asDiagonal() * Q;
     const Matrix inverse = scale.cwiseInverse().asDiagonal() * Q;
@@ -121,7 +121,7 @@ double VaryingPart::remainder(const PeriodicSystem& system, double time, double 
 }
 
 Matrix VaryingPart::at(double time) const {
-    const Vector all = series_ * fourier_basis(time, most_harmonics);
+    const Vector all = series_ * fourier_basis(time, max_harmonics);
     return all.reshaped(B_.cols(), 3 * B_.cols());
 }
 

@@ -16,7 +16,7 @@ constexpr double singular_below = 1e-4;
 constexpr double rounded = 1e-14, open_from = 1e-5, closed_at_start = 1e-6, steady_at_start = 1e-6;
 // Fraction of the first residual that is as good as closed, whatever its size.
 constexpr double improved = 1e-6;
-constexpr int most_corrections = 12;
+constexpr int max_corrections = 12;
 
 }  // namespace
 
@@ -68,7 +68,7 @@ bool ConstrainedMotion::project(double time, Vector& q, Vector& qd, Workspace& w
         const double now = phi_.cwiseQuotient(allowed_).lpNorm<Eigen::Infinity>();
         if (i == 0) first_gap = now;
         // Once they are closed to rounding, or have stopped to close, no further.
-        const bool last = now <= 1 || (i > 0 && now > gap / 2) || i == most_corrections;
+        const bool last = now <= 1 || (i > 0 && now > gap / 2) || i == max_corrections;
         gap = now;
         if (!std::isfinite(gap) || !factorise(kin, time, q)) {
             if (problem_.empty()) problem_ = text("at ", time, " s the loops have no finite position");

@@ -45,9 +45,9 @@ void StageGuess::predict(double time, const double* last, double* guess) {
     if (!begun_) return;
     if (last_ > start_) {
         const double at = last_ - start_;
-        const int place = count_ % most;
+        const int place = count_ % max;
         // In a step as short as the clock can tell two stages may be at one time.
-        for (int k = 0; k < std::min(count_, most); ++k)
+        for (int k = 0; k < std::min(count_, max); ++k)
             if (entry(times_, k) == at) return end();
         entry(times_, place) = at;
         std::copy_n(last, x_.size(), entry(stages_, place).data());
@@ -55,7 +55,7 @@ void StageGuess::predict(double time, const double* last, double* guess) {
     }
     last_ = time;
     const double t = time - start_;
-    const int known = std::min(count_, most);
+    const int known = std::min(count_, max);
     double P = 1, sum = 0;
     for (int k = 0; k < known; ++k) {
         const double own = entry(times_, k);

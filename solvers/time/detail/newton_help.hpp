@@ -41,13 +41,13 @@ public:
     void end() { begun_ = false; }
 
 private:
-    static constexpr int most = 4;  ///< stages, the latest: beyond, what the iteration left of them is amplified
+    static constexpr int max = 4;  ///< stages, the latest: beyond, what the iteration left of them is amplified
     bool begun_ = false;
     double start_ = 0, last_ = 0;
     Vector x_, slope_;
     int count_ = 0;  ///< stages so far
-    std::array<double, most> times_ = {};
-    std::array<Vector, most> stages_ = {};
+    std::array<double, max> times_ = {};
+    std::array<Vector, max> stages_ = {};
 };
 
 }  // namespace cardan::solvers

@@ -180,10 +180,10 @@ double ArkodeStepper::part_of(double left, double planned) {
 // hardly grow stays, and so does one that has followed a failed attempt.
 int ArkodeStepper::next_step(N_Vector, realtype t, realtype h, realtype, realtype, realtype e1, realtype e2,
                              realtype e3, int, int p, realtype* next, void* user) {
-    constexpr double k1 = 0.58, k2 = 0.21, k3 = 0.1, least = 1e-10, safety = 0.96, bias = 1.5, hardly = 1.5;
+    constexpr double k1 = 0.58, k2 = 0.21, k3 = 0.1, min = 1e-10, safety = 0.96, bias = 1.5, hardly = 1.5;
     auto& self = *static_cast<ArkodeStepper*>(user);
-    *next = h * std::pow(std::max(e1, least), -k1 / p) * std::pow(std::max(e2, least), k2 / p) *
-            std::pow(std::max(e3, least), -k3 / p);
+    *next = h * std::pow(std::max(e1, min), -k1 / p) * std::pow(std::max(e2, min), k2 / p) *
+            std::pow(std::max(e3, min), -k3 / p);
     double planned = std::clamp(safety * *next, h / 10, largest_growth * h);
     const bool accepted = e1 <= bias, to_stop = std::abs(t - self.stop_) <= resolution(t);
     if (accepted && std::exchange(self.is_break_, false)) self.after_break_ = planned;

@@ -43,7 +43,7 @@ TEST_CASE("attached flow: a line that bends", "[analytic]") {
     const AttachedFlow flow = attached_flow(polar_of(bent_line, bucket));
     CHECK(flow.slope == Approx(0.11 / units::degree).epsilon(1e-12));
     CHECK(flow.zero_lift == Approx(-3 * units::degree).epsilon(1e-12));
-    CHECK(flow.least_drag == Approx(0.008).epsilon(1e-12));
+    CHECK(flow.zero_lift_drag == Approx(0.008).epsilon(1e-12));
     // Of the triweight a fifth lies beyond 0.6 deg, so that there half the slope beyond the bend makes nine tenths of
     // it; c_n, which is less than a line, and the intervals of the table take up to one more degree.
     CHECK(flow.upper * units::to_degrees == Approx(8 - 1.1).margin(0.5));
@@ -51,18 +51,18 @@ TEST_CASE("attached flow: a line that bends", "[analytic]") {
 }
 
 TEST_CASE("attached flow: slopes of the NREL 5 MW airfoils are those that AeroDyn finds", "[discrete]") {
-    // Slopes: AeroDyn of OpenFAST 5.0.0 (turbines/data/nrel5mw_unsteady.csv), from the least drag of its files.
+    // Slopes: AeroDyn of OpenFAST 5.0.0 (turbines/data/nrel5mw_unsteady.csv), from the minimum drag of its files.
     for (const UnsteadyAirfoil& airfoil : turbines::nrel5mw_unsteady_airfoils()) {
         const AttachedFlow file = airfoil.flow();
         CAPTURE(airfoil.polar().name());
-        const AttachedFlow own = attached_flow(airfoil.polar(), {.least_drag = file.least_drag});
+        const AttachedFlow own = attached_flow(airfoil.polar(), {.zero_lift_drag = file.zero_lift_drag});
         CHECK(own.slope == Approx(file.slope).margin(1e-5));  // six digits
-        CHECK(own.least_drag == file.least_drag);
+        CHECK(own.zero_lift_drag == file.zero_lift_drag);
         if (file.slope == 0) continue;
         CHECK(airfoil.polar().at(own.zero_lift).lift == Approx(0).margin(1e-12));
         // Of the files, which are not the zeros of their tables.
         CHECK(own.zero_lift * units::to_degrees == Approx(file.zero_lift * units::to_degrees).margin(0.17));
-        // The least drag of the table instead changes neither line nor zero.
+        // The minimum drag of the table instead changes neither line nor zero.
         const AttachedFlow alone = attached_flow(airfoil.polar());
         CHECK(alone.slope == Approx(file.slope).epsilon(0.015));
         CHECK(alone.zero_lift == own.zero_lift);
@@ -98,7 +98,7 @@ TEST_CASE("attached flow: airfoils without lift, few points, falling lift have n
     const Polar coarse("coarse", {-pi, 0, pi}, {0, 0.3, 0}, {0.1, 0.01, 0.1}, {0, 0, 0}),
         none_near("none near zero", {-pi, pi}, {0, 0}, {0.1, 0.1}, {0, 0});
     CHECK(attached_flow(coarse).slope == 0);
-    CHECK(attached_flow(coarse).least_drag == 0.01);
+    CHECK(attached_flow(coarse).zero_lift_drag == 0.01);
     CHECK(attached_flow(none_near).slope == 0);
     CHECK(!unsteady_airfoils({coarse}).front().is_unsteady());
     // Three points are enough, on the circle's whole rest there may be none.
@@ -111,12 +111,12 @@ TEST_CASE("attached flow: airfoils without lift, few points, falling lift have n
 TEST_CASE("attached flow: what is known is kept, and the rest follows from it", "[property]") {
     const Polar polar = polar_of(bent_line, bucket);
     const AttachedFlow flow =
-        attached_flow(polar, {.slope = 6, .zero_lift = -0.04, .upper = 0.1, .lower = -0.1, .least_drag = 0.02});
+        attached_flow(polar, {.slope = 6, .zero_lift = -0.04, .upper = 0.1, .lower = -0.1, .zero_lift_drag = 0.02});
     CHECK(flow.slope == 6);
     CHECK(flow.zero_lift == -0.04);
     CHECK(flow.upper == 0.1);
     CHECK(flow.lower == -0.1);
-    CHECK(flow.least_drag == 0.02);
+    CHECK(flow.zero_lift_drag == 0.02);
     // The slope of another range: beyond the bend.
     const AttachedFlow beyond = attached_flow(polar, {.upper = 20 * units::degree, .lower = 9 * units::degree});
     CHECK(beyond.slope == Approx(0.055 / units::degree).epsilon(1e-9));

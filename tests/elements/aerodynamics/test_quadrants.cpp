@@ -223,18 +223,18 @@ TEST_CASE("quadrants: in still air, and in wind that dies down, nothing drives a
     const AeroBlade blade = turbines::nrel5mw_aero_blade();
     for (const double speed : {0.1, 1.267})
         for (const double pitch : {-0.035, 0.0, 0.1, 0.5, pi / 2}) {
-            double least = 0, most = -1e300;
+            double min = 0, most = -1e300;
             for (const double ratio : {18.0, 25.0, 40.0, 60.0, 100.0, 150.0, 400.0, 1e4, 1e8, 1e300}) {
                 const double wind = speed * 63 / ratio;
                 const RotorAir air = air_of(blade, {.wind = wind, .speed = speed, .pitch = pitch, .cone = 0});
                 CAPTURE(speed, pitch, ratio, air.moment.x());
                 CHECK(air.moment.x() < 0);
-                least = std::min(least, air.moment.x());
+                min = std::min(min, air.moment.x());
                 most = std::max(most, air.moment.x());
             }
             const RotorAir none = air_of(blade, {.wind = 0, .speed = speed, .pitch = pitch, .cone = 0});
             CHECK(none.moment.x() < 0);
-            CHECK(none.moment.x() >= least - 1e-9);
+            CHECK(none.moment.x() >= min - 1e-9);
         }
 }
 

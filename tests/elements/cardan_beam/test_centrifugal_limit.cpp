@@ -31,7 +31,7 @@ BeamLine straight_blade() {
             "blade"};
 }
 
-double least_stiffness(const RotatingBeam& rotor, double rotor_speed) {
+double min_stiffness(const RotatingBeam& rotor, double rotor_speed) {
     const Matrix K = rotor.at(rotor_speed).K;
     return Eigen::SelfAdjointEigenSolver<Matrix>(Matrix((K + K.transpose()) / 2), Eigen::EigenvaluesOnly)
         .eigenvalues()(0);
@@ -39,11 +39,11 @@ double least_stiffness(const RotatingBeam& rotor, double rotor_speed) {
 
 // The speed at which the least eigenvalue of the stiffness passes through zero.
 double divergence(const RotatingBeam& rotor, double from, double to) {
-    REQUIRE(least_stiffness(rotor, from) > 0);
-    REQUIRE(least_stiffness(rotor, to) < 0);
+    REQUIRE(min_stiffness(rotor, from) > 0);
+    REQUIRE(min_stiffness(rotor, to) < 0);
     while (to - from > 1e-9 * to) {
         const double middle = (from + to) / 2;
-        (least_stiffness(rotor, middle) > 0 ? from : to) = middle;
+        (min_stiffness(rotor, middle) > 0 ? from : to) = middle;
     }
     return from;
 }

@@ -228,11 +228,11 @@ TEST_CASE("hinge law: isotropic, a round beam stores the same energy whichever w
             beam.at(q, ay1) = beam.at(q, ay2) = -std::atan2(d.z(), d.x());
             energy.push_back(beam.energy(q));
         }
-        const auto [least, most] = std::minmax_element(energy.begin(), energy.end());
+        const auto [min, most] = std::minmax_element(energy.begin(), energy.end());
         if (isotropic)
-            CHECK(*most - *least < 1e-13 * *most);
+            CHECK(*most - *min < 1e-13 * *most);
         else
-            CHECK(*most - *least > 0.01 * *most);
+            CHECK(*most - *min > 0.01 * *most);
     }
 }
 

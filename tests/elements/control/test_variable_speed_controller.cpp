@@ -27,21 +27,21 @@ TEST_CASE("variable-speed controller: the torque curve of the NREL 5 MW machine"
     CHECK(controller.torque(115, 2 * units::degree) * 115 == Approx(5.29661e6).epsilon(1e-12));
 }
 
-TEST_CASE("variable-speed controller: the least pitch over the speed", "[analytic]") {
+TEST_CASE("variable-speed controller: the minimum pitch over the speed", "[analytic]") {
     VariableSpeedParameters p = turbines::nrel5mw_controller();
-    p.least_pitches = {{60, 0.1}, {100, 0.02}, {120, -0.01}};
-    for (const auto& [speed, least] : {std::pair(20.0, 0.1), {60, 0.1}, {80, 0.06}, {110, 0.005}, {150, -0.01}})
-        CHECK(p.least_pitch_at(speed) == Approx(least).epsilon(1e-14));
-    // Far below its reference the speed asks for less than the least pitch, from either side of it.
+    p.min_pitches = {{60, 0.1}, {100, 0.02}, {120, -0.01}};
+    for (const auto& [speed, min] : {std::pair(20.0, 0.1), {60, 0.1}, {80, 0.06}, {110, 0.005}, {150, -0.01}})
+        CHECK(p.min_pitch_at(speed) == Approx(min).epsilon(1e-14));
+    // Far below its reference the speed asks for less than the minimum pitch, from either side of it.
     for (const double start : {0.0, 0.3}) {
         VariableSpeedController controller(p);
         double pitch = start;
         for (int i = 0; i < 10000; ++i) pitch = controller.step({80, pitch}).pitch;
         CHECK(pitch == Approx(0.06).epsilon(1e-12));
     }
-    p.least_pitches = {{100, 0.02}, {60, 0.1}};
-    check_refused([&] { p.check(); }, {"speeds of the least pitches", "rising"});
-    p.least_pitches = {{60, 2}};
+    p.min_pitches = {{100, 0.02}, {60, 0.1}};
+    check_refused([&] { p.check(); }, {"speeds of the minimum pitches", "rising"});
+    p.min_pitches = {{60, 2}};
     check_refused([&] { p.check(); }, {"range of the pitch"});
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("variable-speed controller: its demand moves at the largest rate, howe
     double demand = controller.step({p.reference_speed, 0}).pitch;
     int limited = 0;
     for (int i = 0; i < 400; ++i) {
-        const double next = controller.step({1.5 * p.reference_speed, 0}).pitch, step = p.largest_pitch_rate * p.period;
+        const double next = controller.step({1.5 * p.reference_speed, 0}).pitch, step = p.max_pitch_rate * p.period;
         CHECK(next - demand <= step * (1 + 1e-12));
         if (next - demand > step * (1 - 1e-12)) ++limited;
         demand = next;

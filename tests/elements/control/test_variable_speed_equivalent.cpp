@@ -182,7 +182,7 @@ TEST_CASE(
     const VariableSpeedParameters& p = parameters;
     const double width = VariableSpeedRounding().speed * p.rated_speed, angle = VariableSpeedRounding().constant_power;
     const std::vector<double> bends{p.cut_in, p.optimum_from, p.torque_law().transition_speed(), p.rated_speed,
-                                    p.rated_power / p.largest_torque};
+                                    p.rated_power / p.max_torque};
     ControlSignal::Point last = torque_at(60, 0);
     for (double w = 60; w < 140; w += 0.02) {
         const ControlSignal::Point now = torque_at(w, 0);
@@ -204,7 +204,7 @@ TEST_CASE(
           Approx((torque_at(115, place + 1e-8).value - torque_at(115, place - 1e-8).value) / 2e-8).epsilon(1e-6));
 }
 
-TEST_CASE("variable-speed equivalent: below rated speed its integral is where the program's is, at the least pitch",
+TEST_CASE("variable-speed equivalent: below rated speed its integral is where the program's is, at the minimum pitch",
           "[analytic]") {
     RigidRotor rotor;
     rotor.trim = 0;
@@ -216,11 +216,11 @@ TEST_CASE("variable-speed equivalent: below rated speed its integral is where th
     solvers::Integrator run(system, {}, 0, Vector::Zero(1), Vector::Zero(1));
     REQUIRE(run.advance(60).reached());
     CHECK(std::abs(run.state().s(1)) < 1e-6);
-    // With the filtered speed and that integral the demand is the least pitch.
+    // With the filtered speed and that integral the demand is the minimum pitch.
     std::vector<double> sources, gradient(loop.pitch.sources().size());
     for (const ControlSource& source : loop.pitch.sources())
         sources.push_back(source.name == "pitch integral" ? run.state().s(1) : slow);
-    CHECK(loop.pitch.value(sources.data(), gradient.data()) == parameters.least_pitch);
+    CHECK(loop.pitch.value(sources.data(), gradient.data()) == parameters.min_pitch);
     CHECK(value(loop.filter.output, slow) == slow);
 }
 
@@ -234,7 +234,7 @@ TEST_CASE("variable-speed equivalent: widths that meet and a torque below the ra
     check_refused(with({.constant_power = 0}), {"width of the change to constant power [rad] = 0"});
     check_refused(with({.pitch = 0}), {"rounding of the limits of the pitch = 0"});
     VariableSpeedParameters weak = parameters;
-    weak.largest_torque = 43000;
+    weak.max_torque = 43000;
     check_refused([&] { (void)variable_speed_equivalent(weak, measured, {}); }, {"largest torque [N m] = 43000"});
 }
 

@@ -46,7 +46,7 @@ Bounce bounce(double mass, const HuntCrossley& law, double v0, bool plane) {
 }
 
 struct Cycle {
-    double period, slip, greatest, least;
+    double period, slip, greatest, min;
 };
 
 // m x'' + d x' + k x = friction of a belt that moves with +V: two periods from one begin of slip to the third.
@@ -87,7 +87,7 @@ Cycle creeping_cycle(double d, const StribeckFriction& law) {
 
 // The same by events: true sticking.
 struct Slips {
-    std::vector<double> begins, ends, from, to, greatest, least;
+    std::vector<double> begins, ends, from, to, greatest, min;
     double energy_error = 0;
 };
 
@@ -128,7 +128,7 @@ Slips slips(double d, const StribeckFriction& law) {
                          }};
     };
     options.events.push_back(turning(found.greatest, -1));
-    options.events.push_back(turning(found.least, 1));
+    options.events.push_back(turning(found.min, 1));
     Integrator run(system, {}, 0, q, qd, options);
     REQUIRE(run.advance(4.5).reached());
     found.energy_error = run.energy().error;
@@ -195,7 +195,7 @@ TEST_CASE("contact: derivatives of laws", "[property]") {
 
 TEST_CASE("friction: stick-slip on a belt", "[discrete]") {
     struct Row {
-        double d, viscous, period, greatest, least;
+        double d, viscous, period, greatest, min;
     };
     const std::vector<Row> rows = {{0, 0, 1.0521471606, 0.160736365, 0.019617499},
                                    {1, 2, 0.8808870126, 0.159055203, 0.054206741}};
@@ -207,7 +207,7 @@ TEST_CASE("friction: stick-slip on a belt", "[discrete]") {
         CHECK(once.period == Approx(row.period).epsilon(3e-3));
         CHECK(std::abs(once.period - row.period) < 0.6 * std::abs(twice.period - row.period));
         CHECK(once.greatest == Approx(row.greatest).epsilon(2e-3));
-        CHECK(once.least == Approx(row.least).margin(4e-4));
+        CHECK(once.min == Approx(row.min).margin(4e-4));
     }
 }
 
@@ -215,7 +215,7 @@ TEST_CASE("friction: stick-slip by events", "[discrete]") {
     struct Row {
         double d;
         StribeckFriction law;
-        double period, slip, from, to, greatest, least;
+        double period, slip, from, to, greatest, min;
     };
     // The last: Coulomb's law with a static friction of its own, in closed form.
     const std::vector<Row> rows = {
@@ -231,7 +231,7 @@ TEST_CASE("friction: stick-slip by events", "[discrete]") {
         CHECK(found.from[1] == Approx(row.from).epsilon(1e-7));
         CHECK(found.to[1] == Approx(row.to).epsilon(1e-6));
         CHECK(found.greatest[1] == Approx(row.greatest).epsilon(1e-7));
-        CHECK(found.least[1] == Approx(row.least).epsilon(1e-6));
+        CHECK(found.min[1] == Approx(row.min).epsilon(1e-6));
         CHECK(std::abs(found.energy_error) < 1e-7);
     }
 }

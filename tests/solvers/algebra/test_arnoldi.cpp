@@ -16,9 +16,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-DominantEigen dominant_of(const Matrix& A, double least, int most = 200) {
+DominantEigen dominant_of(const Matrix& A, double min, int most = 200) {
     const LinearOperator apply = [&](const Vector& x, Vector& y) { y = A * x; };
-    return dominant_eigenvalues(apply, A.rows(), {.least = least, .most = most});
+    return dominant_eigenvalues(apply, A.rows(), {.min = min, .most = most});
 }
 
 double rest_of_pair(const Matrix& A, const DominantEigen::Value& value) {
@@ -101,11 +101,11 @@ TEST_CASE("Arnoldi: as the dense solver on random matrices; every one or none", 
         REQUIRE(dense.compute(A));
         double largest = 0;
         for (const RealEigen::Value& value : dense.values()) largest = std::max(largest, std::abs(value.mu));
-        const double least = 0.7 * largest;
-        const DominantEigen found = dominant_of(A, least);
+        const double min = 0.7 * largest;
+        const DominantEigen found = dominant_of(A, min);
         REQUIRE(found.complete);
         for (const RealEigen::Value& value : dense.values()) {
-            if (std::abs(value.mu) < least) continue;
+            if (std::abs(value.mu) < min) continue;
             double nearest = 1;
             for (const DominantEigen::Value& own : found.values)
                 nearest = std::min(nearest, std::abs(own.mu - value.mu) / std::abs(value.mu));

@@ -108,8 +108,8 @@ TEST_CASE("atlas: the user's own events and cancellation work in every chart", "
 
 TEST_CASE("atlas: bad input is refused", "[solvers][atlas][property]") {
     const Carousels c;
-    const auto make = [&](std::vector<Chart> charts, const std::string& frame, double least = 0.3) {
-        AtlasIntegrator(std::move(charts), frame, 0, c.q, c.qd, least);
+    const auto make = [&](std::vector<Chart> charts, const std::string& frame, double min = 0.3) {
+        AtlasIntegrator(std::move(charts), frame, 0, c.q, c.qd, min);
     };
     check_refused([&] { make({c.chart(c.xyz)}, "body"); }, {"atlas of charts", "number of charts", "1", ">= 2"});
     check_refused([&] { make({c.chart(c.xyz), {}}, "body"); }, {"system of chart 1", "none"});

@@ -59,10 +59,10 @@ TEST_CASE("linear buckling: gravity is a load or a part of the structure", "[ana
     DoublePendulum pendulum;
     pendulum.gravity = {0, 0, -0.4};
     const double k = pendulum.k, weight = 0.4 * pendulum.m * pendulum.length, P = pendulum.length;
-    const auto least_root = [](double a, double b, double c) { return 2 * c / (-b + std::sqrt(b * b - 4 * a * c)); };
+    const auto min_root = [](double a, double b, double c) { return 2 * c / (-b + std::sqrt(b * b - 4 * a * c)); };
     // det(K - factor B) = 0, B diagonal (b1, b2): factor^2 b1 b2 - factor (k1 b2 + k2 b1) + (k1 k2 - k^2).
     const auto expected = [&](double k1, double k2, double b1, double b2) {
-        return least_root(b1 * b2, -(k1 * b2 + k2 * b1), k1 * k2 - k * k);
+        return min_root(b1 * b2, -(k1 * b2 + k2 * b1), k1 * k2 - k * k);
     };
     CHECK(linear_buckling(pendulum.system())[0].factor ==
           Approx(expected(2 * k, k, P + 3 * weight, P + weight)).epsilon(1e-12));

@@ -253,7 +253,7 @@ TEST_CASE("time: the heavy top nutates by elliptic functions, with cusps, loops,
         double theta, psi_dot, omega3;
     };
     const HeavyTop top;
-    const double slow = 0.5 * top.oracle.least_spin(0);
+    const double slow = 0.5 * top.oracle.min_spin(0);
     const System system = top.system();
     for (const Case& c :
          {Case{0.6, 0, 18}, Case{0.6, -0.5, 18}, Case{1e-2, 2e2, slow}, Case{1e-3, 2e3, slow}, Case{1e-4, 2e4, slow}}) {

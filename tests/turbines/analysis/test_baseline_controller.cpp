@@ -46,8 +46,8 @@ TEST_CASE("baseline controller: the machine's own gains are near those of its re
     CHECK(own.optimal_gain == Approx(report.optimal_gain).epsilon(0.05));
     CHECK(own.rated_power == Approx(report.rated_power).epsilon(1e-3));
     CHECK(own.corner_frequency == Approx(report.corner_frequency).epsilon(1e-3));
-    CHECK(own.largest_torque == Approx(report.largest_torque).epsilon(0.01));
-    CHECK(own.largest_pitch_rate == Approx(report.largest_pitch_rate).epsilon(1e-3));
+    CHECK(own.max_torque == Approx(report.max_torque).epsilon(0.01));
+    CHECK(own.max_pitch_rate == Approx(report.max_pitch_rate).epsilon(1e-3));
 }
 
 TEST_CASE("baseline controller: on another shaft it is the same controller of the rotor", "[property]") {
@@ -61,7 +61,7 @@ TEST_CASE("baseline controller: on another shaft it is the same controller of th
     }
     CHECK(fast.optimal_gain * 50 * 50 * 50 == Approx(slow.optimal_gain).epsilon(1e-9));
     CHECK(fast.cut_in == Approx(50 * slow.cut_in));
-    CHECK(fast.largest_torque * 50 == Approx(slow.largest_torque));
+    CHECK(fast.max_torque * 50 == Approx(slow.max_torque));
 }
 
 TEST_CASE("baseline controller: a model's gains go before the machine's own, the report's before both", "[property]") {
@@ -84,13 +84,13 @@ TEST_CASE("baseline controller: a model's gains go before the machine's own, the
     CHECK(p.reference_speed == 121);
     CHECK(p.rated_power == 40000 * 121.0);
     CHECK(p.optimal_gain == 2);
-    CHECK(p.largest_torque == 45000);
-    CHECK(p.largest_torque_rate == 16000);
+    CHECK(p.max_torque == 45000);
+    CHECK(p.max_torque_rate == 16000);
     CHECK_FALSE(p.constant_power);
     REQUIRE(p.gains.size() == 2);
     CHECK(p.gains[1].proportional == -0.001);
-    CHECK(p.largest_pitch == 1.5);
-    CHECK(p.largest_pitch_rate == 0.1);
+    CHECK(p.max_pitch == 1.5);
+    CHECK(p.max_pitch_rate == 0.1);
     REQUIRE(remarks.size() == 1);
     CHECK(remarks[0].text == "controller: baseline, gains of DISCON.IN");
 

@@ -55,7 +55,7 @@ Turbine prescribed_machine(double inertia = 0) {
 }
 
 // As of a machine's own choice.
-constexpr turbines::ActuatorOptions two_hertz{.pitch_frequency = 4 * pi, .largest_pitch_rate = 8 * units::degree};
+constexpr turbines::ActuatorOptions two_hertz{.pitch_frequency = 4 * pi, .max_pitch_rate = 8 * units::degree};
 
 // Torque of the wind at the hub, and the machine turning steadily under it.
 constexpr double torque = 4e6;

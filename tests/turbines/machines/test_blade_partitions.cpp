@@ -213,10 +213,10 @@ double divergence(const System& system, const RotorMap& rotor, double about) {
         REQUIRE(steady.converged);
         last = steady.at.q;
         const Matrix K = solvers::restrict_to(solvers::linearise(system, steady.at), rotor.blades.at(0)).K;
-        const double least = Eigen::SelfAdjointEigenSolver<Matrix>((K + K.transpose()) / 2).eigenvalues()(0);
-        if (least < 0) return (share + step * least / (before - least)) * about;
-        if (least > before) return (share - step) * about;
-        before = least;
+        const double min = Eigen::SelfAdjointEigenSolver<Matrix>((K + K.transpose()) / 2).eigenvalues()(0);
+        if (min < 0) return (share + step * min / (before - min)) * about;
+        if (min > before) return (share - step) * about;
+        before = min;
     }
     return std::numeric_limits<double>::infinity();
 }

@@ -37,10 +37,10 @@ std::vector<double> frequencies_at_rest(const TurbineDescription& description, i
 TEST_CASE("mesh: the frequencies asked for are within the tolerance of those of a much finer one", "[discrete]") {
     const TurbineDescription description = machine();
     for (const double tolerance : {2e-2, 2e-3, 2e-4}) {
-        const Mesh mesh = converged_mesh(description, with({.tolerance = tolerance, .largest_hz = 12}));
+        const Mesh mesh = converged_mesh(description, with({.tolerance = tolerance, .max_hz = 12}));
         REQUIRE(mesh.converged);
         CHECK(mesh.change <= tolerance);
-        CHECK(mesh.largest_hz == 12);
+        CHECK(mesh.max_hz == 12);
         const std::vector<double> found = frequencies_at_rest(description, mesh.blade_elements, mesh.tower_elements),
                                   finer = frequencies_at_rest(description, 4 * mesh.blade_elements,
                                                               4 * mesh.tower_elements);
@@ -67,9 +67,9 @@ TEST_CASE("mesh: elements that are sought do not make up for those that were giv
 
 TEST_CASE("mesh: more elements for a smaller tolerance and for higher frequencies", "[property]") {
     const TurbineDescription description = machine();
-    const Mesh coarse = converged_mesh(description, with({.tolerance = 2e-2, .largest_hz = 6})),
-               fine = converged_mesh(description, with({.tolerance = 2e-4, .largest_hz = 6})),
-               high = converged_mesh(description, with({.tolerance = 2e-2, .largest_hz = 25}));
+    const Mesh coarse = converged_mesh(description, with({.tolerance = 2e-2, .max_hz = 6})),
+               fine = converged_mesh(description, with({.tolerance = 2e-4, .max_hz = 6})),
+               high = converged_mesh(description, with({.tolerance = 2e-2, .max_hz = 25}));
     CHECK(fine.blade_elements > coarse.blade_elements);
     CHECK(high.blade_elements > coarse.blade_elements);
     CHECK(high.modes > coarse.modes);
@@ -77,7 +77,7 @@ TEST_CASE("mesh: more elements for a smaller tolerance and for higher frequencie
 
 TEST_CASE("mesh: what is given stays, and what cannot be reached is said", "[property]") {
     const TurbineDescription description = machine();
-    AssemblyOptions both = with({.largest_hz = 12});
+    AssemblyOptions both = with({.max_hz = 12});
     both.blade_elements = 2;
     both.tower_elements = 5;
     const Mesh given = converged_mesh(description, both);
@@ -85,19 +85,19 @@ TEST_CASE("mesh: what is given stays, and what cannot be reached is said", "[pro
     CHECK(given.tower_elements == 5);
     CHECK_FALSE(given.converged);
     CHECK(given.change > 2e-3);
-    const Mesh few = converged_mesh(description, with({.tolerance = 1e-9, .largest_hz = 12, .most = 3}));
+    const Mesh few = converged_mesh(description, with({.tolerance = 1e-9, .max_hz = 12, .max_elements = 3}));
     CHECK(few.blade_elements == 3);
     CHECK_FALSE(few.converged);
 }
 
 TEST_CASE("mesh: a largest frequency far above the machine's own compares all of its modes", "[property]") {
     const TurbineDescription description = machine();
-    MeshOptions high{.largest_hz = 1e9, .most = 3};
+    MeshOptions high{.max_hz = 1e9, .max_elements = 3};
     const Mesh all = converged_mesh(description, with(high));
     CHECK(all.modes > 50);
     CHECK_FALSE(all.converged);
     // Its lowest modes do not count as motions without stiffness.
-    high.largest_hz = 2e4;
+    high.max_hz = 2e4;
     CHECK(converged_mesh(description, with(high)).modes > 20);
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("mesh: elements too many for a comparison are taken as they are, and t
 
 TEST_CASE("mesh: blades that turn fast have more elements than their frequencies need", "[property]") {
     const TurbineDescription description = machine();
-    const MeshOptions still{.tolerance = 0.1, .largest_hz = 3};
+    const MeshOptions still{.tolerance = 0.1, .max_hz = 3};
     MeshOptions fast = still;
     fast.rotor_speed = 60;  // rad/s
     CHECK(converged_mesh(description, with(fast)).blade_elements >
@@ -128,7 +128,7 @@ TEST_CASE("mesh: a machine is assembled with as many elements as it takes, and s
     const Mesh& mesh = turbine.mesh();
     CHECK(mesh.converged);
     CHECK(mesh.modes > 5);
-    CHECK(mesh.largest_hz == usual_frequency(description));
+    CHECK(mesh.max_hz == usual_frequency(description));
     CHECK(turbine.layout().blades.front().elements.size() == static_cast<std::size_t>(mesh.blade_elements));
     CHECK(turbine.layout().tower->elements.size() == static_cast<std::size_t>(mesh.tower_elements));
     for (const std::string& said : {turbine.summary(), turbine.rotor().description})
@@ -163,8 +163,7 @@ TEST_CASE("mesh: elements that are given in full are not sought, those of the ot
 TEST_CASE("mesh: a machine of another size needs the same numbers, and they are as good", "[analytic]") {
     constexpr double ratio = 1.75;  // of lengths; frequencies are those of the smaller one over it
     const TurbineDescription small = machine(), large = scaled(small, ratio);
-    const Mesh a = converged_mesh(small, with({.largest_hz = 12})),
-               b = converged_mesh(large, with({.largest_hz = 12 / ratio}));
+    const Mesh a = converged_mesh(small, with({.max_hz = 12})), b = converged_mesh(large, with({.max_hz = 12 / ratio}));
     CHECK(a.blade_elements == b.blade_elements);
     CHECK(a.tower_elements == b.tower_elements);
     CHECK(a.modes == b.modes);
@@ -196,20 +195,21 @@ TEST_CASE("mesh: frequencies of a clamped blade are those of the cantilever", "[
 
 TEST_CASE("mesh: where blade 1 is missing, the others count", "[property]") {
     TurbineDescription description = machine();
-    const Mesh whole = converged_mesh(description, with({.tolerance = 1e-3, .largest_hz = 12}));
+    const Mesh whole = converged_mesh(description, with({.tolerance = 1e-3, .max_hz = 12}));
     description.own_blades[1] = std::nullopt;
     description.unusual = true;
-    const Mesh without = converged_mesh(description, with({.tolerance = 1e-3, .largest_hz = 12}));
+    const Mesh without = converged_mesh(description, with({.tolerance = 1e-3, .max_hz = 12}));
     CHECK(without.blade_elements == whole.blade_elements);
     CHECK(without.converged);
 }
 
 TEST_CASE("mesh: bad options are refused", "[property]") {
     const TurbineDescription description = machine();
-    testing::check_refused([&] { (void)converged_mesh(description, with({.largest_hz = -1})); },
+    testing::check_refused([&] { (void)converged_mesh(description, with({.max_hz = -1})); },
                            {"mesh", "largest frequency [Hz] = -1", ">= 0"});
     testing::check_refused([&] { (void)assemble(description, with({.tolerance = 0})); }, {"mesh", "tolerance = 0"});
     testing::check_refused([&] { (void)converged_mesh(description, with({.rotor_speed = -2})); },
                            {"mesh", "rotor speed [rad/s] = -2"});
-    testing::check_refused([&] { (void)converged_mesh(description, with({.most = 0})); }, {"most elements = 0"});
+    testing::check_refused([&] { (void)converged_mesh(description, with({.max_elements = 0})); },
+                           {"maximum number of elements = 0"});
 }

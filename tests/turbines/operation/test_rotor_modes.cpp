@@ -71,12 +71,12 @@ TEST_CASE("rotor modes: IEA 22 MW rotor within the band of HAWC2 and OpenFAST", 
             const solvers::Branch& branch = diagram.branch(name);
             const double hz = diagram.natural_hz(branch, 0), damping = diagram.damping_ratio(branch, 0);
             const auto [lowest, highest] = std::minmax({at("frequency_hawc2"), at("frequency_openfast")});
-            const auto [least, most] = std::minmax({at("damping_hawc2"), at("damping_openfast")});
-            CAPTURE(at("wind"), name, hz, lowest, highest, damping, least, most);
+            const auto [min, most] = std::minmax({at("damping_hawc2"), at("damping_openfast")});
+            CAPTURE(at("wind"), name, hz, lowest, highest, damping, min, most);
             CHECK(hz > 0.98 * lowest);
             CHECK(hz < 1.02 * highest);
-            const bool inside = damping > 0.85 * least && damping < 1.15 * most;
-            CHECK((inside || (damping > 0.85 * least - 0.003 && damping < 1.15 * most + 0.003)));
+            const bool inside = damping > 0.85 * min && damping < 1.15 * most;
+            CHECK((inside || (damping > 0.85 * min - 0.003 && damping < 1.15 * most + 0.003)));
             in_band += inside;
             ++compared;
         }

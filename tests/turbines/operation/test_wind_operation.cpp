@@ -179,7 +179,7 @@ TEST_CASE("operation in the wind: best tip-speed ratio, limits of speed and powe
     WindOperation machine(description, nrel5mw_assembly(Nrel5mwVariant::fast, 3, 1), blade);
     REQUIRE(machine.is_constant());
     const VariableSpeed law{.tip_speed_ratio = best,
-                            .least_speed = 6.9 * units::rpm,
+                            .min_rotor_speed = 6.9 * units::rpm,
                             .rated_speed = 12.1 * units::rpm,
                             .rated_power = 5.2966e6};
     const std::vector<WindPoint> points = machine.over(std::vector<double>{4, 8, 11, 12, 15, 24}, law);
@@ -187,10 +187,10 @@ TEST_CASE("operation in the wind: best tip-speed ratio, limits of speed and powe
         CAPTURE(point.operation.wind, point.message);
         REQUIRE(point.converged);
         CHECK(point.power <= law.rated_power * (1 + 2e-6));
-        CHECK(point.operation.rotor_speed >= law.least_speed * (1 - 1e-12));
+        CHECK(point.operation.rotor_speed >= law.min_rotor_speed * (1 - 1e-12));
         if (point.operation.pitch > 0) CHECK(point.power == Approx(law.rated_power).epsilon(2e-6));
     }
-    CHECK(points[0].operation.rotor_speed == Approx(law.least_speed));
+    CHECK(points[0].operation.rotor_speed == Approx(law.min_rotor_speed));
     CHECK(points[1].tip_speed_ratio == Approx(best));
     CHECK(points[3].operation.pitch > 0);
     CHECK(points[5].operation.pitch > points[4].operation.pitch);
@@ -211,8 +211,8 @@ TEST_CASE("operation in the wind: schedules, what is refused", "[validation]") {
     check_refused([] { operation_at({{5, 1, 0}, {4, 1, 0}}, 4.5); }, {"wind speed [m/s] = 4", "ascending"});
     check_refused([] { VariableSpeed{.tip_speed_ratio = 7, .rated_speed = 1}.check(); }, {"rated power [W] = 0"});
     check_refused(
-        [] { VariableSpeed{.tip_speed_ratio = 7, .least_speed = 2, .rated_speed = 1, .rated_power = 1}.check(); },
-        {"least speed [rad/s] = 2"});
+        [] { VariableSpeed{.tip_speed_ratio = 7, .min_rotor_speed = 2, .rated_speed = 1, .rated_power = 1}.check(); },
+        {"minimum rotor speed [rad/s] = 2"});
 }
 
 TEST_CASE("operation in the wind: tilt and gravity against ElastoDyn and AeroDyn", "[discrete][slow]") {

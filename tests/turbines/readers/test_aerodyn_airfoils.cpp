@@ -80,7 +80,7 @@ TEST_CASE("aerodyn airfoils: what the file says, and what it leaves to the progr
     CHECK(flow.slope == Approx(0.09 / units::degree));
     CHECK(flow.upper == Approx(9 * units::degree));
     CHECK(flow.lower == Approx(-5 * units::degree));
-    CHECK(flow.least_drag == 0.01);
+    CHECK(flow.zero_lift_drag == 0.01);
     const UnsteadyAirfoilConstants thin;
     CHECK(airfoil.lags().A1 == thin.A1);
     CHECK(airfoil.lags().boundary_layer == thin.boundary_layer);
@@ -93,7 +93,7 @@ TEST_CASE("aerodyn airfoils: what the file says, and what it leaves to the progr
     CHECK(flow.slope == 6.2);
     CHECK(flow.upper == Approx(12 * units::degree));
     CHECK(flow.lower == Approx(-8 * units::degree));
-    CHECK(flow.least_drag == 0.02);
+    CHECK(flow.zero_lift_drag == 0.02);
     const UnsteadyAirfoilConstants lags = file.airfoils[1].lags();
     CHECK(lags.A1 == 0.2);
     CHECK(lags.A2 == 0.6);
@@ -226,18 +226,18 @@ TEST_CASE("aerodyn airfoils: polars of the IEA 22 MW and 3.4 MW machines against
             }
             const Polar polar(name, {table});
             const AttachedFlow flow = attached_flow(polar);
-            const double slope = file.number("C_nalpha"), least_drag = file.number("Cd0");
+            const double slope = file.number("C_nalpha"), zero_lift_drag = file.number("Cd0");
             if (slope == 0) {
                 CHECK(flow.slope == 0);
                 continue;
             }
             CHECK(flow.zero_lift * units::to_degrees == Approx(file.number("alpha0")).margin(1e-5));
             // Theirs is that at zero lift.
-            if (least_drag > 0) CHECK(polar.at(flow.zero_lift).drag == Approx(least_drag).margin(1e-6));
-            if (least_drag > 0) CHECK(flow.least_drag <= least_drag + 1e-6);
+            if (zero_lift_drag > 0) CHECK(polar.at(flow.zero_lift).drag == Approx(zero_lift_drag).margin(1e-6));
+            if (zero_lift_drag > 0) CHECK(flow.zero_lift_drag <= zero_lift_drag + 1e-6);
             ++compared;
             // What has more drag is half a cylinder, whose lift is no line.
-            if (flow.least_drag > 0.05) continue;
+            if (flow.zero_lift_drag > 0.05) continue;
             ++thin;
             CHECK(flow.slope == Approx(slope).epsilon(0.1));
             const UnsteadyAirfoil airfoil(polar, flow);

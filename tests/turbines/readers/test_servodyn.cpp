@@ -34,10 +34,10 @@ TEST_CASE("servodyn: the rated speed comes from what drives the generator", "[an
     // Power on the generator's shaft: torque times speed.
     CHECK(torque_law.operation.rated_power == Approx(800 * 1150 * units::rpm).epsilon(1e-15));
     CHECK(torque_law.operation.source == "small_ServoDyn.dat");
-    CHECK(torque_law.least_generator_speed == 0);
+    CHECK(torque_law.min_generator_speed == 0);
     const ServoDyn rated = with("0", "1 GenModel\n2.0 SIG_SlPc\n1800 SIG_SySp\n500 SIG_RtTq\n2 SIG_PORt\n");
     CHECK(rated.operation.rated_power == Approx(500 * 1836 * units::rpm).epsilon(1e-15));
-    CHECK(rated.least_generator_speed == Approx(1800 * units::rpm).epsilon(1e-15));
+    CHECK(rated.min_generator_speed == Approx(1800 * units::rpm).epsilon(1e-15));
     CHECK(thevenin.operation.rated_power == 0);
     // A routine of the user's says nothing.
     CHECK(with("3").rated_generator_speed == 0);
@@ -227,17 +227,17 @@ TEST_CASE("servodyn: the pitch below rated power is that of the controller", "[a
     CHECK(pitch_at(scheduled.pitch_schedule, 0) == 0.08);
     CHECK(pitch_at(scheduled.pitch_schedule, 9) == 0.04);
     // The same over the wind, with what else the controller knows of the machine in it.
-    CHECK(scheduled.operation.least_speed == Approx(3).epsilon(1e-14));
+    CHECK(scheduled.operation.min_rotor_speed == Approx(3).epsilon(1e-14));
     CHECK(scheduled.operation.tip_speed_ratio == 8);
     CHECK(scheduled.operation.rated_power == 0);
     CHECK(scheduled.operation.source == "DISCON.IN");
-    CHECK(pitch_at(scheduled.operation.least_pitch, 10) == Approx(0.035).epsilon(1e-14));
-    CHECK(pitch_at(scheduled.operation.least_pitch, 20) == 0.2);
-    CHECK(pitch_at(scheduled.operation.least_pitch, 1) == 0.09);
+    CHECK(pitch_at(scheduled.operation.min_pitch, 10) == Approx(0.035).epsilon(1e-14));
+    CHECK(pitch_at(scheduled.operation.min_pitch, 20) == 0.2);
+    CHECK(pitch_at(scheduled.operation.min_pitch, 1) == 0.09);
     CHECK_THROWS_AS(pitch_at(std::vector<PitchAtWind>(), 1), InputError);
     CHECK_THROWS_AS(pitch_at(std::vector<PitchAtWind>{{2, 0}, {2, 0}}, 1), InputError);
     const ServoDyn constant = read("0");
-    CHECK(constant.operation.least_pitch.empty());
+    CHECK(constant.operation.min_pitch.empty());
     CHECK(constant.pitch_schedule.empty());
     CHECK(constant.pitch_source == "PC_FinePit of DISCON.IN");
     CHECK_THROWS_AS(pitch_at(std::vector<PitchAt>(), 1), InputError);

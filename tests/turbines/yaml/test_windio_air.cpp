@@ -108,7 +108,7 @@ TEST_CASE("windio air: unsteady airfoils from the polars alone", "[analytic]") {
     CHECK(thin.flow().zero_lift == Approx(-4 * degree));
     CHECK(thin.flow().upper == Approx(5 * degree));
     CHECK(thin.flow().lower == Approx(-5 * degree));
-    CHECK(thin.flow().least_drag == Approx(0.011));
+    CHECK(thin.flow().zero_lift_drag == Approx(0.011));
 }
 
 TEST_CASE("windio air: an offset across the chord goes to the suction side, downwind", "[analytic]") {

@@ -36,7 +36,7 @@ TEST_CASE("windio: rated power, speeds, ratio and pitch of the control of versio
         test::has_note(file.notes, "control.torque.VS_maxspd", "makes the tips faster than control.supervisory.maxTS"));
     CHECK(file.operation.rated_power == Approx(2e6 / (0.97 * 0.95)).epsilon(1e-14));
     CHECK(file.controller.generator_efficiency == 0.95);
-    CHECK(file.operation.least_speed == Approx(8 * units::rpm).epsilon(1e-14));
+    CHECK(file.operation.min_rotor_speed == Approx(8 * units::rpm).epsilon(1e-14));
     CHECK(file.operation.tip_speed_ratio == 8);
     CHECK(file.pitch == Approx(-1 * units::degree).epsilon(1e-14));
     CHECK(file.pitch_source == "control.pitch.min_pitch");
@@ -48,7 +48,7 @@ TEST_CASE("windio: rated power, speeds, ratio and pitch of the control of versio
 TEST_CASE("windio: version 1 counts in rad/s and rad", "[crosscheck]") {
     const TurbineFile one = with("control: {pitch: {min_pitch: -0.1}}", "small_v1.yaml");
     CHECK(one.rotor_speed == 4.7);
-    CHECK(one.operation.least_speed == 2);
+    CHECK(one.operation.min_rotor_speed == 2);
     CHECK(one.operation.tip_speed_ratio == 7);
     CHECK(one.pitch == -0.1);
     // 100 kW, electrical, and nothing of the losses.
@@ -56,18 +56,18 @@ TEST_CASE("windio: version 1 counts in rad/s and rad", "[crosscheck]") {
     CHECK(test::has_note(one.notes, "assembly.rated_power", "no efficiency of the generator"));
 }
 
-TEST_CASE("windio: names of version 2.1, with the least pitch over the wind", "[analytic]") {
+TEST_CASE("windio: names of version 2.1, with the minimum pitch over the wind", "[analytic]") {
     const TurbineFile file = with(
         "control: {rated_rotor_speed: 18, max_rotor_speed: 21, min_rotor_speed: 6, rated_power: 1.9e6, fine_pitch: "
         "-2,\n"
         "  optimal_tsr: 8.4, min_pitch_table: {wind_speed: [3, 6, 9, 15], min_pitch: [3, 2, 0, 1]}}");
     CHECK(rpm(file) == Approx(18).epsilon(1e-14));
     CHECK(file.rotor_speed_source == "control.rated_rotor_speed");
-    CHECK(file.operation.least_speed == Approx(6 * units::rpm).epsilon(1e-14));
+    CHECK(file.operation.min_rotor_speed == Approx(6 * units::rpm).epsilon(1e-14));
     CHECK(file.operation.tip_speed_ratio == 8.4);
     CHECK(file.operation.rated_power == Approx(1.9e6 / (0.97 * 0.95)).epsilon(1e-14));
     CHECK(file.pitch == Approx(-2 * units::degree).epsilon(1e-14));
-    CHECK(pitch_at(file.operation.least_pitch, 7.5) == Approx(1 * units::degree).epsilon(1e-14));
+    CHECK(pitch_at(file.operation.min_pitch, 7.5) == Approx(1 * units::degree).epsilon(1e-14));
     // At 6 m/s the rotor of 40 m turns at 8.4 x 6 / 40 rad/s, beyond 9 m/s at its rated speed.
     CHECK(pitch_at(file.pitch_schedule, 1.26) == Approx(2 * units::degree).epsilon(1e-12));
     CHECK(file.pitch_schedule.back().rotor_speed == Approx(18 * units::rpm).epsilon(1e-14));
@@ -110,7 +110,7 @@ TEST_CASE("windio: the slowest of several limits of the speed counts", "[analyti
     // Within 1 % of the tip speed, which is that of a nominal radius.
     CHECK(rpm(limited("{torque: {VS_maxspd: 19.2}}")) == Approx(19.2).epsilon(1e-14));
     CHECK(limited("{torque: {VS_maxspd: 0}}").rotor_speed == Approx(2).epsilon(1e-14));
-    CHECK(limited("{supervisory: {minOmega: 0.5}, torque: {VS_minspd: 0}}").operation.least_speed == 0.5);
+    CHECK(limited("{supervisory: {minOmega: 0.5}, torque: {VS_minspd: 0}}").operation.min_rotor_speed == 0.5);
 }
 
 TEST_CASE("windio: the efficiency of the generator is that of rated speed", "[analytic]") {

@@ -11,7 +11,7 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr double least_clearance = 0.01;  // of the diameter
+constexpr double min_clearance = 0.01;  // of the diameter
 
 // A line that holds the pieces of a tower, and its own length.
 struct TowerPieces {
@@ -138,7 +138,7 @@ InfluenceState influence_at(const InfluenceParts& parts, const BodyMotion& motio
     out.axis = next.axis;
     out.foot = next.from + next.along * next.axis;
     take_row(parts, next.segment->start + next.along, out);
-    if (next.distance - out.radius <= 2 * least_clearance * out.radius) return out;
+    if (next.distance - out.radius <= 2 * min_clearance * out.radius) return out;
     const double beyond = next.free_along - next.along, z = beyond / out.radius;
     const bool outside = (beyond < 0 && next.segment == &parts.segments.front()) ||
                          (beyond > 0 && next.segment == &parts.segments.back());

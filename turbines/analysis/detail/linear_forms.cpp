@@ -14,14 +14,14 @@ namespace {
 
 // Largest change of any matrix from one azimuth to another, relative to its size at the first.
 double variation(const solvers::LinearModel& model) {
-    double most = 0;
+    double max = 0;
     for (Matrix solvers::StateMatrices::*matrix : {&solvers::StateMatrices::A, &solvers::StateMatrices::B,
                                                    &solvers::StateMatrices::C, &solvers::StateMatrices::D}) {
         const Matrix& first = model.samples.front().*matrix;
         for (const solvers::LinearSample& sample : model.samples)
-            most = std::max(most, (sample.*matrix - first).norm() / std::max(first.norm(), 1e-300));
+            max = std::max(max, (sample.*matrix - first).norm() / std::max(first.norm(), 1e-300));
     }
-    return most;
+    return max;
 }
 
 LinearForm form_of(const solvers::LinearModel& model, const TurbineDescription& machine) {

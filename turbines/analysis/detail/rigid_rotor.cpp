@@ -74,7 +74,7 @@ Operation RigidRotor::operation(double wind) const {
     VariableSpeed law = variable_speed(own);
     law.tip_speed_ratio = ratio();
     const double speed = law.speed_at(wind, radius_);
-    const double fine = law.least_pitch_at(wind);
+    const double fine = law.min_pitch_at(wind);
     if (speed < law.rated_speed || power(wind, speed, fine) <= law.rated_power) return {wind, speed, fine};
     return {wind, speed, pitch_for(law.rated_power, wind, speed)};
 }

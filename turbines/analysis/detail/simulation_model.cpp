@@ -51,7 +51,7 @@ solvers::PeriodicSteadyState rotation_in_wind(const Turbine& at_start, const Sim
 // About the shaft, mean over a revolution in steady rotation, N m.
 double torque_of(const MachineAir& air, const Turbine& at_start, const SimulationSettings& o, const Report& report) {
     if (*o.rotor_speed == 0) return 0;
-    const int azimuths = std::max(24, air.least_azimuths());
+    const int azimuths = std::max(24, air.min_azimuths());
     const solvers::PeriodicSteadyState state = rotation_in_wind(at_start, o, report);
     const Model& model = at_start.system().model;
     Workspace workspace(model);

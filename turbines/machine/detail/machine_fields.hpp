@@ -66,7 +66,7 @@ void airfoil_fields(Archive& archive, Airfoil& airfoil) {
         archive.number("zero_lift_angle", unsteady.flow.zero_lift);
         archive.number("separation_above", unsteady.flow.upper);
         archive.number("separation_below", unsteady.flow.lower);
-        archive.number("min_drag", unsteady.flow.least_drag);
+        archive.number("min_drag", unsteady.flow.zero_lift_drag);
         archive.optional_choice("model", unsteady.lags.model,
                                 {UnsteadyAirfoilModel::beddoes_leishman, UnsteadyAirfoilModel::oye});
         archive.optional_number("A1", unsteady.lags.A1);

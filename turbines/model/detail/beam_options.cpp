@@ -6,7 +6,7 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr int most_elements = 1000;
+constexpr int max_elements = 1000;
 
 CardanBeamOptions elements_of(const AssemblyOptions& options, int elements) {
     CardanBeamOptions beam;
@@ -31,8 +31,8 @@ CardanBeamOptions elements_of(const AssemblyOptions& options, const std::optiona
 
 void check_elements(const AssemblyOptions& options) {
     const auto check = [](const char* part, const std::optional<int>& elements) {
-        if (elements && (*elements < 1 || *elements > most_elements))
-            throw InputError(part, "number of elements", *elements, text("1 ... ", most_elements));
+        if (elements && (*elements < 1 || *elements > max_elements))
+            throw InputError(part, "number of elements", *elements, text("1 ... ", max_elements));
     };
     check("tower", options.tower_elements);
     check("blades", options.blade_elements);

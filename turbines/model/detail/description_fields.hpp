@@ -10,7 +10,7 @@
 
 namespace cardan::turbines {
 
-inline constexpr int most_counted = 1000;
+inline constexpr int max_counted = 1000;
 inline constexpr auto missing = "missing";  // in place of a blade
 
 inline const char* name_of(Interpolation interpolation) {

@@ -66,7 +66,7 @@ public:
     explicit Writer(BeamLines lines) : lines_(lines) {}
     void word(const char* key, const std::string& value) { entry(key, quoted(value)); }
     void integer(const char* key, int value) {
-        if (value < 0 || value > most_counted) throw InputError(key, "number", value, text("0 ... ", most_counted));
+        if (value < 0 || value > max_counted) throw InputError(key, "number", value, text("0 ... ", max_counted));
         entry(key, text(value));
     }
     void number(const char* key, double value) { entry(key, digits(value, key)); }
@@ -213,11 +213,11 @@ private:
     void entry(const char* key, const std::string& value) { out += text(indentation(), key, ": ", value, "\n"); }
     template <class Values>
     std::string list(const Values& values, bool or_infinite = false) const {
-        constexpr int most_in_line = 1000;
+        constexpr int max_in_line = 1000;
         std::string all;
         int count = 0;
         for (double value : values) {
-            if (count > 0) all += count % most_in_line == 0 ? ",\n" + indentation() + "  " : ", ";
+            if (count > 0) all += count % max_in_line == 0 ? ",\n" + indentation() + "  " : ", ";
             all += digits(value, "list", or_infinite);
             ++count;
         }

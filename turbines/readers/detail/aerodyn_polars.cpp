@@ -75,9 +75,9 @@ public:
 
     bool is_included() const { return included_; }
     // Nothing where it is for the program to find.
-    std::optional<double> number(const char* keyword, double least = std::numeric_limits<double>::lowest()) {
+    std::optional<double> number(const char* keyword, double min = std::numeric_limits<double>::lowest()) {
         const std::optional<double> value = included_ ? file_.number_before("NumAlf", keyword) : std::nullopt;
-        if (value && *value < least) file_.fail_in(keyword, 0, text(keyword, " = ", *value, "; allowed: >= ", least));
+        if (value && *value < min) file_.fail_in(keyword, 0, text(keyword, " = ", *value, "; allowed: >= ", min));
         return value;
     }
     double lag(const char* keyword, double otherwise) {
@@ -116,7 +116,7 @@ AttachedFlow flow_of(OpenFastFile& file, UnsteadyData& data, const Polar& polar)
                           .zero_lift = data.angle("alpha0"),
                           .upper = data.angle("alphaUpper"),
                           .lower = data.angle("alphaLower"),
-                          .least_drag = data.number("Cd0")};
+                          .zero_lift_drag = data.number("Cd0")};
     if (known.upper && known.lower && *known.upper < *known.lower)
         file.fail_in("alphaUpper", 0,
                      text("alphaUpper = ", *known.upper * units::to_degrees, "; allowed: at least alphaLower, ",

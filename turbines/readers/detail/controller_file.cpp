@@ -109,7 +109,7 @@ std::size_t whole(const ControllerFile& file, const char* keyword, double announ
 }
 
 // Over the wind; empty: there is none.
-std::vector<PitchAtWind> least_pitch(const ControllerFile& file) {
+std::vector<PitchAtWind> min_pitch(const ControllerFile& file) {
     constexpr auto winds_of = "PS_WindSpeeds", pitch_of = "PS_BldPitchMin", count_of = "PS_BldPitchMin_N";
     if (file.number("PS_Mode").value_or(0) == 0) return {};
     const auto given = file.number(count_of);
@@ -152,9 +152,9 @@ FileOperation operation_of(const ControllerFile& file) {
     else if (on_shaft > 0)
         out.rated_power = on_shaft;
     out.gear_ratio = gears;
-    if (gears > 0 && of("VS_MinOMSpd") > 0) out.least_speed = of("VS_MinOMSpd") / gears;
+    if (gears > 0 && of("VS_MinOMSpd") > 0) out.min_rotor_speed = of("VS_MinOMSpd") / gears;
     if (of("VS_TSRopt") > 0) out.tip_speed_ratio = of("VS_TSRopt");
-    out.least_pitch = least_pitch(file);
+    out.min_pitch = min_pitch(file);
     return out;
 }
 
@@ -187,12 +187,12 @@ ControllerGains gains_of(const ControllerFile& file) {
 }
 
 std::vector<PitchAt> pitch_over_speed(const std::vector<PitchAtWind>& winds, double tip_speed_ratio, double radius,
-                                      double least, double most) {
+                                      double min, double max) {
     std::vector<PitchAt> schedule;
     for (const PitchAtWind& one : winds) {
-        const double speed = std::clamp(tip_speed_ratio * one.wind / radius, std::min(least, most), most);
+        const double speed = std::clamp(tip_speed_ratio * one.wind / radius, std::min(min, max), max);
         if (!schedule.empty() && speed == schedule.back().rotor_speed) {
-            if (speed == most) break;
+            if (speed == max) break;
             schedule.pop_back();
         }
         schedule.push_back({speed, one.pitch});
@@ -201,7 +201,7 @@ std::vector<PitchAt> pitch_over_speed(const std::vector<PitchAtWind>& winds, dou
 }
 
 std::vector<PitchAt> minimum_pitch(const ControllerFile& file) {
-    const std::vector<PitchAtWind> over_wind = least_pitch(file);
+    const std::vector<PitchAtWind> over_wind = min_pitch(file);
     if (over_wind.empty()) return {};
     const auto positive = [&](const char* keyword) {
         const double value = file.required(keyword);

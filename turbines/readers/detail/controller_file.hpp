@@ -48,14 +48,14 @@ private:
     std::map<std::string, Entry> entries_;  // by keyword in lower case
 };
 
-/// Pitch of the blades below rated power, over the rotor speed: at their least pitch for the wind at which a rotor of
-/// this radius turns so fast at the tip speed ratio, not slower than `least` and not faster than `most`, rad/s. Of
+/// Pitch of the blades below rated power, over the rotor speed: at their minimum pitch for the wind at which a rotor of
+/// this radius turns so fast at the tip speed ratio, not slower than `min` and not faster than `max`, rad/s. Of
 /// winds with the same speed of the rotor the one next to those in between counts.
 /// @param winds  ascending
 std::vector<PitchAt> pitch_over_speed(const std::vector<PitchAtWind>& winds, double tip_speed_ratio, double radius,
-                                      double least, double most);
+                                      double min, double max);
 
-/// The least pitch over rotor speed (PS_BldPitchMin over PS_WindSpeeds), by pitch_over_speed(). The rotor turns at
+/// The minimum pitch over rotor speed (PS_BldPitchMin over PS_WindSpeeds), by pitch_over_speed(). The rotor turns at
 /// the tip speed ratio VS_TSRopt, not slower than VS_MinOMSpd and not faster than PC_RefSpd. Empty: the file has no
 /// such schedule (PS_Mode).
 /// @throws ParseError for a schedule that is not whole (fewer numbers than PS_BldPitchMin_N, winds that do not ascend,

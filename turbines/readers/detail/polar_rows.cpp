@@ -104,8 +104,8 @@ Polar::Table polar_of_rows(const OpenFastFile& file, const std::vector<OpenFastF
         out.moment.push_back(value(columns.moment));
     }
     if (rows.empty()) return out;
-    if (const auto least = std::ranges::min_element(out.drag); *least < 0)
-        notes.push_back({file.name(), rows.front().line, "drag", text(*least, " ..."),
+    if (const auto min = std::ranges::min_element(out.drag); *min < 0)
+        notes.push_back({file.name(), rows.front().line, "drag", text(*min, " ..."),
                          "less than zero, taken as it is: such an airfoil drives itself"});
     const std::string range = in_degrees(out.angles.front(), out.angles.back());
     try {

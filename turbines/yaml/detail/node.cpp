@@ -147,10 +147,9 @@ double YamlNode::number(bool or_infinite) const {
     return number.value;
 }
 
-int YamlNode::integer(int least, int most) const {
+int YamlNode::integer(int min, int max) const {
     const double value = number();
-    if (value != std::round(value) || value < least || value > most)
-        fail(text(value, "; allowed: ", least, " ... ", most));
+    if (value != std::round(value) || value < min || value > max) fail(text(value, "; allowed: ", min, " ... ", max));
     return static_cast<int>(value);
 }
 

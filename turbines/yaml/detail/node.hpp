@@ -44,7 +44,7 @@ public:
 
     std::string word() const;
     bool flag() const;
-    int integer(int least, int most) const;
+    int integer(int min, int max) const;
     /// A finite number, optionally also infinite (".inf").
     double number(bool or_infinite = false) const;
     std::vector<double> numbers(bool or_infinite = false) const;

@@ -11,8 +11,8 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr double rounded_end = 0.01;       // rad; public files end at 3.14
-constexpr std::size_t most_angles = 5000;  // public files have up to 400; every section may have its own polar
+constexpr double rounded_end = 0.01;      // rad; public files end at 3.14
+constexpr std::size_t max_angles = 5000;  // public files have up to 400; every section may have its own polar
 
 // An entry under the names of both versions.
 YamlNode either(const YamlNode& node, const char* name, const char* older) {
@@ -34,7 +34,7 @@ WindioCurve coefficient_curve(WindioFile& file, const YamlNode& node) {
     if (curve.grid.size() < 2 || curve.grid.size() != curve.values.size())
         grid.fail(
             text(curve.grid.size(), " angles for ", curve.values.size(), " values; allowed: as many, at least 2"));
-    if (curve.grid.size() > most_angles) grid.fail(text(curve.grid.size(), " angles; allowed: at most ", most_angles));
+    if (curve.grid.size() > max_angles) grid.fail(text(curve.grid.size(), " angles; allowed: at most ", max_angles));
     for (std::size_t i = 1; i < curve.grid.size(); ++i)
         if (!(curve.grid[i] > curve.grid[i - 1]))
             grid.fail(text(curve.grid[i], " after ", curve.grid[i - 1], "; allowed: larger"));

@@ -23,9 +23,9 @@ public:
         read_power();
         // From 2.1 on; up to 2.0; of the first files, which counted in rad/s.
         if (const auto speed = positive({"control.min_rotor_speed", "control.torque.VS_minspd"}))
-            out_.operation.least_speed = speed->number() * file_.rotor_speed();
+            out_.operation.min_rotor_speed = speed->number() * file_.rotor_speed();
         else if (const auto old = positive({"control.supervisory.minOmega"}))
-            out_.operation.least_speed = old->number();
+            out_.operation.min_rotor_speed = old->number();
         if (const auto ratio = positive({"control.optimal_tsr", "control.torque.tsr"}))
             out_.operation.tip_speed_ratio = ratio->number();
         read_pitch();
@@ -51,9 +51,9 @@ private:
             return take_speed(rated->number() * file_.rotor_speed(), rated->path());
         // The rotor turns as fast as it may.
         std::optional<YamlNode> limit;
-        if (const auto most = positive({"control.torque.VS_maxspd"})) {
-            limit = most;
-            take_speed(most->number() * file_.rotor_speed(), most->path());
+        if (const auto max = positive({"control.torque.VS_maxspd"})) {
+            limit = max;
+            take_speed(max->number() * file_.rotor_speed(), max->path());
         }
         if (const auto old = positive({"control.supervisory.maxOmega"});  // in rad/s
             old && (!limit || old->number() < out_.rotor_speed)) {
@@ -62,8 +62,8 @@ private:
         }
         if (const auto tip = positive({"control.supervisory.maxTS"}); tip && radius_ > 0) limit_tip_speed(*tip, limit);
         if (out_.rotor_speed > 0) return;
-        if (const auto most = positive({"control.max_rotor_speed"}))
-            take_speed(most->number() * file_.rotor_speed(), most->path());
+        if (const auto max = positive({"control.max_rotor_speed"}))
+            take_speed(max->number() * file_.rotor_speed(), max->path());
     }
     // Tip speeds are those of nominal radii: the IEA 15 MW machine's 95 m/s and 7.56 rpm belong to 120 m, and its axes
     // make 120.8 m.
@@ -127,12 +127,12 @@ private:
         for (std::size_t i = 0; i < winds.size(); ++i) {
             if (i > 0 && !(winds[i] > winds[i - 1]))
                 (*table)["wind_speed"].fail(text(winds[i], " after ", winds[i - 1], "; allowed: larger"));
-            out_.operation.least_pitch.push_back({winds[i], angles[i] * file_.angle()});
+            out_.operation.min_pitch.push_back({winds[i], angles[i] * file_.angle()});
         }
         const double ratio = out_.operation.tip_speed_ratio;
-        if (!(ratio > 0 && radius_ > 0 && out_.rotor_speed > 0) || out_.operation.least_pitch.empty()) return;
-        out_.pitch_schedule =
-            pitch_over_speed(out_.operation.least_pitch, ratio, radius_, out_.operation.least_speed, out_.rotor_speed);
+        if (!(ratio > 0 && radius_ > 0 && out_.rotor_speed > 0) || out_.operation.min_pitch.empty()) return;
+        out_.pitch_schedule = pitch_over_speed(out_.operation.min_pitch, ratio, radius_, out_.operation.min_rotor_speed,
+                                               out_.rotor_speed);
         out_.pitch_source = table->path();
     }
 
