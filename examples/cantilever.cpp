@@ -13,7 +13,7 @@ int main() {
     constexpr double second = (0.1 * 0.1 * 0.1 * 0.1 - 0.09 * 0.09 * 0.09 * 0.09) / 12;  // m^4
     const BeamLine line = uniform_beam(length, {.mass = density * area, .EI_flap = E * second, .EI_edge = E * second});
 
-    const SingleBeam beam = clamped_beam(line, {.elements = 16, .torsion = false, .held_z = true});
+    const SingleBeam beam = clamped_beam(line, {.elements = 16, .torsion = false, .locked_z = true});
     const std::vector<solvers::Mode> modes = solvers::natural_modes(beam.system).modes;
 
     std::printf("mode   computed   closed form   (Hz)   difference\n");

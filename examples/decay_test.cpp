@@ -15,7 +15,7 @@ int main() try {
     const double hz = 3.5160153 / (2 * pi * length * length) * std::sqrt(EI / mass);
     const SingleBeam beam =
         clamped_beam(uniform_beam(length, {.mass = mass, .EI_flap = EI, .EI_edge = EI}),
-                     {.elements = 6, .torsion = false, .held_z = true, .damping = BeamDamping::ratio_at(ratio, hz)});
+                     {.elements = 6, .torsion = false, .locked_z = true, .damping = BeamDamping::ratio_at(ratio, hz)});
     const solvers::NaturalModes natural = solvers::natural_modes(beam.system);
     const solvers::Mode& mode = natural.modes.front();
 

@@ -27,7 +27,8 @@ solvers::Campbell diagram_of(double gravity) {
     const turbines::Turbine turbine = turbines::assemble(downwind_machine(), options);
     solvers::CampbellOptions sweep;
     sweep.max_frequency_hz = 6;
-    sweep.floquet.held = {turbine.system().model.index("yaw")};  // nothing holds its mean: it stays where it starts
+    sweep.floquet.fixed_means = {
+        turbine.system().model.index("yaw")};  // nothing holds its mean: it stays where it starts
     return solvers::campbell(turbine.system(), turbine.rotor(), {30 * units::rpm, 45 * units::rpm, 60 * units::rpm},
                              sweep);
 }

@@ -16,7 +16,7 @@ int main() {
     // z is the axis of the rotor: flap is bending about y, lag about z; a blade in which the other one is locked.
     const auto lowest = [&](double speed, bool flap) {
         const SingleBeam blade =
-            spinning_beam(line, {.elements = 16, .torsion = false, .held_y = !flap, .held_z = flap});
+            spinning_beam(line, {.elements = 16, .torsion = false, .locked_y = !flap, .locked_z = flap});
         return std::abs(solvers::natural_modes(blade.system, blade.spin, speed).modes.front().eigenvalue);
     };
 

@@ -31,7 +31,7 @@ int main() {
     // Any position nearby will do for a start, and any rates; the crank's are kept.
     const double theta = 1;
     const CoordinateTable& table = system.model.coordinates();
-    const ClosureOptions keep_crank{.held = {table.index("crank")}};
+    const ClosureOptions keep_crank{.fixed = {table.index("crank")}};
     const Vector nearby = table.vector({{"crank", theta}, {"rod", -1}, {"slider", 0.3}});
     const Closure start = close_loops(system.model, system.loops, nearby, keep_crank);
     require_result(start);

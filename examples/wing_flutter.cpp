@@ -28,7 +28,7 @@ int main() try {
     machine.hub.radius = 1;
     machine.blade.line = uniform_beam(span, wing_section(), "wing");
     turbines::AssemblyOptions assembly{.pitch = pi / 2};
-    assembly.blade_beam = {.elements = elements, .held_z = true};
+    assembly.blade_beam = {.elements = elements, .locked_z = true};
     const turbines::Turbine wing = turbines::isolated_blade(machine, assembly);
     const Polar plate("plate", {-pi, -0.7, 0.7, pi}, {0, -1.4 * pi, 1.4 * pi, 0}, {0, 0, 0, 0}, {0, 0, 0, 0});
     const UnsteadyAirfoil airfoil(plate, {.slope = 2 * pi, .upper = 0.7, .lower = -0.7},

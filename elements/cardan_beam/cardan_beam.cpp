@@ -119,7 +119,7 @@ private:
     void joint(JointKind joint, Axis axis, ElementCoordinate kind, const char* what) {
         using enum ElementCoordinate;
         const bool held =
-            (options_.held_y && (kind == ay1 || kind == ay2)) || (options_.held_z && (kind == az1 || kind == az2));
+            (options_.locked_y && (kind == ay1 || kind == ay2)) || (options_.locked_z && (kind == az1 || kind == az2));
         const JointedFrame added = add_joint(tree_, at_, joint, axis, name_ + " " + what, label_, Vec3(step_, 0, 0),
                                              held ? CoordinateRole::driven : CoordinateRole::free);
         at_ = added.frame;

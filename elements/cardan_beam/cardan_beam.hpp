@@ -38,7 +38,7 @@ struct CardanBeamOptions {
     bool torsion = true;     ///< free, else condensed
     /// Bending about the beam's y or z axis is suppressed: its coordinates are driven, at zero, whatever the
     /// flexibility.
-    bool held_y = false, held_z = false;
+    bool locked_y = false, locked_z = false;
     BeamDamping damping = {};
     /// Armature on each bending coordinate, as a multiple of the element's M L^2. May be negative (docs/theory.md,
     /// accuracy) as long as the metric of the whole tree stays positive definite; otherwise the Model rejects it and
@@ -48,10 +48,10 @@ struct CardanBeamOptions {
     double hinge_delta() const { return delta.value_or(recommended_delta(partition)); }
     /// Rigid in every way: bending held, no torsion, no extension, and so no shear and no coupling of these.
     void hold_all() {
-        held_y = held_z = true;
+        locked_y = locked_z = true;
         torsion = extension = false;
     }
-    bool holds_all() const { return held_y && held_z && !torsion && !extension; }
+    bool holds_all() const { return locked_y && locked_z && !torsion && !extension; }
 };
 
 /// Parts of a beam that were added to the tree.

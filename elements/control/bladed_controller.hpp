@@ -16,9 +16,9 @@ namespace cardan {
 /// A controller in a shared library. It keeps its memory to itself: two controllers in one process need two copies of
 /// the library's file, and a run with one cannot continue from a checkpoint.
 ///
-/// Records count from 1, as in the manuals; units are SI. What the machine decides is told before the first call and
+/// Records count from 1, as in the manuals; units are SI. What the machine decides is given before the first call and
 /// stays: pitch angles are demanded, not rates (record 10 = 0), yaw rates, not torques (29 = 0), of the blades alike or
-/// each (28). What the controller switches is told back to it as it stands: the contactor of the generator (35, on at
+/// each (28). What the controller switches is given back to it as it stands: the contactor of the generator (35, on at
 /// first) and the shaft brake (36, off at first).
 class BladedController {
 public:
@@ -30,7 +30,7 @@ public:
         double period = 0;              ///< s, between two calls
         bool individual_pitch = false;  ///< 28: every blade has a demand of its own
         double fine_pitch = 0, max_pitch = 1.5707963267948966, min_pitch_rate = -0.1396,
-               max_pitch_rate = 0.1396;  ///< rad, rad/s: told to the controller, which may have its own
+               max_pitch_rate = 0.1396;  ///< rad, rad/s: given to the controller, which may have its own
         double rated_speed = 0;          ///< of the generator, rad/s
         double max_torque = 0;           ///< N m
     };

@@ -8,7 +8,8 @@
 
 namespace cardan {
 
-DriveCommand::DriveCommand(double position, const TravelLimits& limits) : limits_(limits), rate_(0), travel_(position) {
+DriveCommand::DriveCommand(double position, const TrajectoryLimits& limits)
+    : limits_(limits), rate_(0), trajectory_(position) {
     require_positive("command of a drive", "largest rate", limits.rate);
     require_positive("command of a drive", "largest acceleration", limits.acceleration);
     require_not_negative("command of a drive", "largest jerk", limits.jerk);
@@ -21,16 +22,16 @@ void DriveCommand::move_to(double target, double time) {
 }
 
 void DriveCommand::move_to(double target, double time, double rate) {
-    if (target == travel_.target() && rate == rate_ && time >= travel_.start()) return;
-    travel_ = Travel(time, travel_.at(time), target, {rate, limits_.acceleration, limits_.jerk});
+    if (target == trajectory_.target() && rate == rate_ && time >= trajectory_.start()) return;
+    trajectory_ = Trajectory(time, trajectory_.at(time), target, {rate, limits_.acceleration, limits_.jerk});
     rate_ = rate;
 }
 
 void DriveCommand::follow(double target, double time, double period) {
     require_positive("command of a drive", "period of commands [s]", period);
-    if (target == travel_.target() && rate_ == 0 && time >= travel_.start()) return;
-    const double from = travel_.at(time).position;
-    travel_ = Travel::straight(time, from, target, std::max(period, std::abs(target - from) / limits_.rate));
+    if (target == trajectory_.target() && rate_ == 0 && time >= trajectory_.start()) return;
+    const double from = trajectory_.at(time).position;
+    trajectory_ = Trajectory::straight(time, from, target, std::max(period, std::abs(target - from) / limits_.rate));
     rate_ = 0;
 }
 
@@ -41,7 +42,7 @@ struct SpringDeflection {
     double position, rate;
 };
 SpringDeflection deflection(const ElasticDrive& drive, double time, double position, double rate) {
-    const Travel::State commanded = drive.command->at(time);
+    const Trajectory::State commanded = drive.command->at(time);
     return {position - drive.sense * commanded.position, rate - drive.sense * commanded.rate};
 }
 

@@ -3,7 +3,7 @@
 /// motion of the coordinate, solvers/time/motion.)
 #pragma once
 
-#include "mbs/base/travel.hpp"
+#include "mbs/base/trajectory.hpp"
 #include "mbs/system/channel.hpp"
 
 #include <memory>
@@ -12,16 +12,16 @@
 
 namespace cardan {
 
-/// The commanded position of a drive as a function of time: the fastest travel within the limits of rate, acceleration
-/// and jerk (Travel); all but the jerk are continuous. A new command starts from the state that the previous one has
-/// reached, so repeating a command changes nothing, and commands may come as often as a controller samples. Commands
-/// are given between two steps (in the action of an event, or between two calls of advance(), followed by
-/// Integrator::restart()). A DriveCommand belongs to one simulation at a time, and to one thread.
+/// The commanded position of a drive as a function of time: the fastest trajectory within the limits of rate,
+/// acceleration and jerk (Trajectory); all but the jerk are continuous. A new command starts from the state that the
+/// previous one has reached, so repeating a command changes nothing, and commands may come as often as a controller
+/// samples. Commands are given between two steps (in the action of an event, or between two calls of advance(),
+/// followed by Integrator::restart()). A DriveCommand belongs to one simulation at a time, and to one thread.
 class DriveCommand {
 public:
     /// At rest at a position. @throws InputError: a position that is not finite, limits that are not positive
-    DriveCommand(double position, const TravelLimits& limits);
-    /// Starts the travel to a new target; whatever was commanded for later than `time` is dropped.
+    DriveCommand(double position, const TrajectoryLimits& limits);
+    /// Starts the trajectory to a new target; whatever was commanded for later than `time` is dropped.
     /// @throws InputError for values that are not finite
     void move_to(double target, double time);
     /// Moves to a target with a different maximum rate for this command only.
@@ -32,17 +32,17 @@ public:
     /// @throws InputError for values that are not finite, a period that is not positive
     void follow(double target, double time, double period);
 
-    Travel::State at(double time) const { return travel_.at(time); }
-    double target() const { return travel_.target(); }
+    Trajectory::State at(double time) const { return trajectory_.at(time); }
+    double target() const { return trajectory_.target(); }
     /// Time at which the drive comes to rest, s.
-    double arrival() const { return travel_.arrival(); }
+    double arrival() const { return trajectory_.arrival(); }
     /// Times at which a higher derivative jumps: breaks for the integration, if the command is known before it starts.
-    std::vector<double> breaks() const { return travel_.breaks(); }
+    std::vector<double> breaks() const { return trajectory_.breaks(); }
 
 private:
-    TravelLimits limits_;
+    TrajectoryLimits limits_;
     double rate_;  ///< largest rate of the present command; 0: none, or follow()
-    Travel travel_;
+    Trajectory trajectory_;
 };
 
 /// Q = -stiffness (q - sense p(t)) - damping (qd - sense p'(t)) with the commanded position p; N m/rad and N m s/rad,

@@ -25,7 +25,7 @@ System slider_crank(int elements) {
     CardanBeamOptions options;
     options.elements = elements;
     options.torsion = false;
-    options.held_y = true;  // it bends in the plane only
+    options.locked_y = true;  // it bends in the plane only
     Tree tree;
     ForceSet forces;
     const JointedFrame crank =

@@ -10,7 +10,7 @@ namespace cardan::program {
 /// The command line of a study, with --out for its picture, and its errors.
 class Study {
 public:
-    /// @param name  of the program; its picture is "<name>.svg" unless told otherwise
+    /// @param name  of the program; its picture is "<name>.svg" unless given otherwise
     Study(std::string name, const std::string& about)
         : picture(name + ".svg"),
           line(about + "\nPrints what is computed beside its reference."),

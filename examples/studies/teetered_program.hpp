@@ -57,7 +57,7 @@ inline solvers::CampbellOptions campbell_options(const TeeteredArguments& a, con
     solvers::CampbellOptions options = campbell_options(max_frequency_hz);
     options.method = solvers::CampbellMethod::floquet;
     options.floquet.harmonics = a.harmonics;
-    if (a.gravity) options.floquet.held = {machine.system().model.index("yaw")};  // nothing holds it
+    if (a.gravity) options.floquet.fixed_means = {machine.system().model.index("yaw")};  // nothing holds it
     return options;
 }
 

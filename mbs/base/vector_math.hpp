@@ -1,7 +1,8 @@
 /// @file
 /// Tells the compiler of the vector versions that glibc has of these functions (libmvec; some from 2.35 on), so that
 /// loops over arrays may call them by their global names. They do not set errno: sources that include this are compiled
-/// without it (-fno-math-errno, in CMakeLists.txt). Clang knows some of them by itself, and is told there to use them.
+/// without it (-fno-math-errno, in CMakeLists.txt). Clang knows some of them by itself, and has an option there to use
+/// them.
 #pragma once
 
 #include "mbs/base/vectorised.hpp"

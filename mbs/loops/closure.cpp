@@ -17,10 +17,10 @@ constexpr double dependent_below = 1e-9;
 // Rates over their terms that mean that a loop opens.
 constexpr double open_from = 1e-9;
 
-std::vector<bool> kept(const Model& model, const std::vector<int>& held) {
+std::vector<bool> kept(const Model& model, const std::vector<int>& fixed) {
     std::vector<bool> flags = model.coordinates().driven();
-    for (const int coordinate : held) {
-        require_index(in_closure, "held coordinate", coordinate, model.size());
+    for (const int coordinate : fixed) {
+        require_index(in_closure, "fixed coordinate", coordinate, model.size());
         flags[static_cast<std::size_t>(coordinate)] = true;
     }
     return flags;
@@ -36,7 +36,7 @@ void require_finite_entries(const Model& model, const char* what, const Vector& 
 // Everything at one position.
 class Place {
 public:
-    Place(const Model& model, const Loops& loops, const std::vector<int>& held, double time)
+    Place(const Model& model, const Loops& loops, const std::vector<int>& fixed, double time)
         : phi(Vector::Zero(loops.size())),
           G(loops.size(), model.size()),
           magnitudes(loops.size(), model.size()),
@@ -45,7 +45,7 @@ public:
           time_(time),
           allowed_(loops.size()),
           workspace_(model),
-          metric_(model, kept(model, held)),
+          metric_(model, kept(model, fixed)),
           factor_(model, loops.size()) {}
 
     // How far the loops are open, over what is allowed at the position factorised last.
@@ -162,7 +162,7 @@ Closure close_loops(const Model& model, const Loops& loops, const Vector& q, con
     result.q = q;
     result.converged = true;
     if (loops.empty()) return result;
-    Place place(model, loops, options.held, options.time);
+    Place place(model, loops, options.fixed, options.time);
     result.converged = close(place, result, options);
     if (result.converged && options.nearest) approach(place, q, result, options);
     place.factorise(result.q, options.tolerance);
@@ -190,7 +190,7 @@ Vector close_rates(const Model& model, const Loops& loops, const Vector& q, cons
     require_finite_entries(model, "position", q);
     require_finite_entries(model, "rate", qd);
     if (loops.empty()) return qd;
-    Place place(model, loops, options.held, options.time);
+    Place place(model, loops, options.fixed, options.time);
     place.factorise(q, options.tolerance);
     Vector opening(loops.size()), own(loops.size());
     loops.time_rates(options.time, q, own);

@@ -10,8 +10,8 @@
 namespace cardan {
 
 struct ClosureOptions {
-    double time = 0;             ///< s
-    std::vector<int> held = {};  ///< coordinates that stay, by index; driven ones stay anyway
+    double time = 0;              ///< s
+    std::vector<int> fixed = {};  ///< coordinates that stay, by index; driven ones stay anyway
     int iterations = 200;
     /// Largest residual that is left, over the size of what an equation compares: Loops::tolerances().
     double tolerance = 1e-13;
@@ -30,7 +30,7 @@ struct [[nodiscard]] Closure : Outcome {
 
 /// Closes the loops from a position nearby: Newton's method along the shortest corrections in the metric, then along
 /// the closed positions to the one that is nearest to the start.
-/// @param q  where to start; held and driven coordinates stay
+/// @param q  where to start; fixed and driven coordinates stay
 /// @return not converged, with a message that names the joint, where they cannot be closed or only turned over
 /// @throws InputError for sizes, indices and values that are not finite
 Closure close_loops(const Model& model, const Loops& loops, const Vector& q, const ClosureOptions& options = {});

@@ -277,7 +277,7 @@ void write_files(const solvers::LinearModel& model, const std::vector<solvers::N
 }
 
 std::string why_periodic(const turbines::Turbine& turbine, const turbines::TurbineDescription& machine) {
-    if (!machine.own_blades.empty()) return "blades that differ";
+    if (!machine.individual_blades.empty()) return "blades that differ";
     return turbine.layout().blades.size() == 2 ? "two blades" : "a rotor that is not balanced";
 }
 

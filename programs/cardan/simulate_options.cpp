@@ -26,7 +26,7 @@ void add_controller_options(CommandLine& app, ControllerArguments& options) {
                    "time between its calls, s (default: DLL_DT of the model, else 0.0125)");
     app.add_option(
            "--pitch-control", options.pitch_control,
-           "what the library is told of the pitch: collective, or individual, a demand for each blade (default: "
+           "what the library is given of the pitch: collective, or individual, a demand for each blade (default: "
            "Ptch_Cntrl of ServoDyn, else collective)")
         .one_of({"collective", "individual"});
     app.add_option("--pitch-actuator", options.pitch_actuator,

@@ -47,7 +47,7 @@ inline void stop_at_once() {
     end_progress();
 }
 
-/// The first such signal asks the program to stop, which is told; the second one ends it.
+/// The first such signal asks the program to stop, which is printed; the second one ends it.
 inline void ask_to_stop(int signal) {
     constexpr std::string_view words = "\nstopping, and keeping what is done; once more: at once\n";
     interrupt = signal;
@@ -112,14 +112,14 @@ int with_errors(const char* name, const Body& body) {
     return interrupted() ? 128 + interrupt : code;
 }
 
-/// Prepares a program: from here on signals are caught, and long work is told of; what there is no memory for is an
+/// Prepares a program: from here on signals are caught, and long work is reported; what there is no memory for is an
 /// error with advice.
 /// @param name  of the program
 template <class Body>
 int working(const char* name, const Body& body) {
     handle_signals(ask_to_stop);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error as a full disk is
-    const LongWork told(name);
+    const LongWork reported(name);
     return with_memory("this run; fewer elements, times or speeds need less", body);
 }
 

@@ -25,7 +25,7 @@ bool is_terminal() {
     return terminal;
 }
 
-// What is being done, since when it has been told, and whether a terminal shows it. For all threads.
+// What is being done, since when it has been shown, and whether a terminal shows it. For all threads.
 struct Status {
     std::mutex mutex;
     std::string what;

@@ -16,7 +16,7 @@ void progress(const std::string& what);
 /// Takes the line off a terminal, for what is printed in its place. What is being done is still known.
 void clear_progress();
 
-/// The work is done: nothing is told from here on, until progress() is.
+/// The work is done: nothing is shown from here on, until progress() is.
 void end_progress();
 
 /// Tells of long work, as long as it lives: after ten seconds in a file or pipe, and from then on every half minute or

@@ -37,7 +37,7 @@ struct CampbellFloquetOptions {
     /// Harmonics of the revolution in the periodic steady state. Their number is raised by half at a time, to at most 4
     /// times as many, while the neglected harmonics have a residual / stiffness above 1e-5.
     int harmonics = 8;
-    std::vector<int> held = {};  ///< as PeriodicOptions::held
+    std::vector<int> fixed_means = {};  ///< as PeriodicOptions::fixed_means
     double per_period =
         0;  ///< modes up to this frequency, in multiples of the rotor speed, are accurate; 0: up to `max_frequency_hz`
     double tolerance = 1e-9;  ///< of exponents, relative to them or to the rotor speed, whichever is larger

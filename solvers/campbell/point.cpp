@@ -91,7 +91,7 @@ PointSolver::PointSolver(const System& system, const RotorMap& rotor, const Camp
 // With loops: the coordinates that are independent where these are closed.
 void PointSolver::reduce_unknowns() {
     ClosureOptions options;
-    if (rotor_.spin >= 0) options.held = {rotor_.spin};
+    if (rotor_.spin >= 0) options.fixed = {rotor_.spin};
     const Vector zero = Vector::Zero(system_.model.size());
     const Closure closed = close_loops(system_.model, system_.loops, zero, options);
     require_result(closed, rotor_.machine);

@@ -21,9 +21,9 @@ struct FloquetOptions {
     /// accuracy, and the vectors are obtained at the times in between.
     int factors = 8;
     /// Only motions up to `per_period`, and up to half as fast again, are of interest: of a system of second order
-    /// those that are much faster are left out of the result. Where they can be told from the others beforehand
-    /// (without states beside the coordinates, and with a gap in the frequencies at every azimuth), the rest is
-    /// integrated alone. The rest keeps its exponents: what they are off by is part of their errors.
+    /// those that are much faster are left out of the result. Where they can be distinguished from the others
+    /// beforehand (without states beside the coordinates, and with a gap in the frequencies at every azimuth), the rest
+    /// is integrated alone. The rest keeps its exponents: what they are off by is part of their errors.
     bool only_slow = false;
     /// Weight W of x^H W x for the participation of harmonics in a system of first order; empty: unit matrix.
     Matrix weight = {};

@@ -78,10 +78,10 @@ void Balance::add_harmonics() {
 }
 
 void Balance::hold() {
-    for (int coordinate : options_.held) {
+    for (int coordinate : options_.fixed_means) {
         const Index row = equations_.row_of(coordinate);
         if (row < 0)
-            throw InputError(in_harmonic_balance, "coordinate whose mean is held", coordinate,
+            throw InputError(in_harmonic_balance, "coordinate whose mean is fixed", coordinate,
                              "a free coordinate besides the spin");
         held_.push_back(row);
     }
@@ -261,7 +261,8 @@ void Balance::finish(PeriodicSteadyState& result, bool small) {
     set_remainders(result);
     result.needs_more_harmonics = leaves_much_;
     result.iterations = iterations_;
-    for (std::size_t i = 0; i < options_.held.size(); ++i) result.held.push_back({options_.held[i], R_(held_[i], 0)});
+    for (std::size_t i = 0; i < options_.fixed_means.size(); ++i)
+        result.fixed_means.push_back({options_.fixed_means[i], R_(held_[i], 0)});
     for (const std::string& words : open_.words()) result.note += (result.note.empty() ? "" : "; ") + words;
     if (small) return;
     result.message = text(

@@ -53,8 +53,8 @@ void require_no_growth(const RotorEquations& equations) {
 }
 
 int number_of_steps(const PeriodicOptions& options) {
-    if (!options.held.empty())
-        throw InputError(in_shooting, "number of held means", options.held.size(),
+    if (!options.fixed_means.empty())
+        throw InputError(in_shooting, "number of fixed means", options.fixed_means.size(),
                          "0 (harmonic balance can hold them)");
     const int steps = options.steps > 0 ? options.steps : std::max(64, 8 * options.harmonics);
     if (options.steps < 0 || steps < 2 * options.harmonics + 1)

@@ -29,9 +29,9 @@ struct PeriodicOptions {
     int iterations = 40;
     /// Harmonic balance: azimuths per revolution at which the equations are evaluated; 0: 4 (harmonics + 1).
     int samples = 0;
-    /// Harmonic balance: coordinates whose mean is held at that of `start` by a load, which is part of the result. For
+    /// Harmonic balance: coordinates whose mean is fixed at that of `start` by a load, which is part of the result. For
     /// unrestrained coordinates, such as free yaw.
-    std::vector<int> held = {};
+    std::vector<int> fixed_means = {};
     /// Harmonic balance: the blades. With two or more alike, steps cost a small part of Newton's for all coefficients;
     /// the steady state is the same to the tolerance. Null: Newton's steps for all coefficients.
     const RotorMap* rotor = nullptr;
@@ -42,8 +42,8 @@ struct PeriodicOptions {
     std::function<bool()> cancelled = {};
 };
 
-/// A mean value that is held, and the load this requires.
-struct HeldMean {
+/// A mean value that is fixed, and the load this requires.
+struct FixedMean {
     int coordinate = -1;
     double load = 0;  ///< added to the generalised forces on it, N m or N
 };
@@ -64,7 +64,7 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     /// Largest residual / stiffness of the series at azimuths between those that were balanced: what the neglected
     /// harmonics would have to balance.
     double remainder = 0;
-    std::vector<HeldMean> held;
+    std::vector<FixedMean> fixed_means;
     std::string note;  ///< what the equations leave undetermined and at which value it was kept; usually empty
     double state_remainder = 0;  ///< `remainder` of the states, over their scales
     /// Harmonic balance: the remainder is more than 1e-5, or that of the states, or 2e-3 where half as many harmonics
@@ -104,8 +104,8 @@ PeriodicSteadyState harmonic_balance(const System& system, int spin, const Perio
 /// The periodic steady state by shooting: finds the free coordinates, rates and states at azimuth 0 that one revolution
 /// reproduces, by Newton's method with the exact derivative of the integration (Radau IIA, equal steps), the monodromy
 /// matrix. The harmonics are computed from the ends of the steps.
-/// @throws InputError also for `held`, for loops, for states of kind `angle` and if there are fewer than 2 harmonics +
-/// 1 steps
+/// @throws InputError also for `fixed_means`, for loops, for states of kind `angle` and if there are fewer than 2
+/// harmonics + 1 steps
 PeriodicSteadyState shooting(const System& system, int spin, const PeriodicOptions& options);
 
 /// Steady states at one rotor speed after another by harmonic balance, each started from the previous one. A speed that

@@ -91,12 +91,12 @@ Motion Motion::rate_ramp(double position, double rate_from, double rate_to, doub
     return {"ramp of the rate", law, {t0, t1}};
 }
 
-Motion Motion::travel(const Travel& travel) {
+Motion Motion::trajectory(const Trajectory& trajectory) {
     const auto law = [=](double t, double inside) {
-        const Travel::State s = travel.at(t, inside);
+        const Trajectory::State s = trajectory.at(t, inside);
         return MotionState{s.position, s.rate, s.acceleration};
     };
-    return {"travel", law, travel.breaks()};
+    return {"trajectory", law, trajectory.breaks()};
 }
 
 Motion Motion::harmonic(double mean, double amplitude, double period, double phase) {

@@ -2,7 +2,7 @@
 /// Prescribed motions of driven coordinates as functions of time.
 #pragma once
 
-#include "mbs/base/travel.hpp"
+#include "mbs/base/trajectory.hpp"
 #include "mbs/base/types.hpp"
 
 #include <functional>
@@ -36,9 +36,9 @@ public:
     /// A ramp of the rate, from `rate_from` to `rate_to`; the position is `position` at t0. For start-up and shut-down
     /// of a rotor. The jerk is continuous.
     static Motion rate_ramp(double position, double rate_from, double rate_to, double t0, double t1);
-    /// To rest at a target within limits of rate, acceleration and jerk, from any state (see Travel): a commanded
-    /// drive. In the action of an event: set_motion(i, Motion::travel({t, {q, qd, 0}, target, limits})).
-    static Motion travel(const Travel& travel);
+    /// To rest at a target within limits of rate, acceleration and jerk, from any state (see Trajectory): a commanded
+    /// drive. In the action of an event: set_motion(i, Motion::trajectory({t, {q, qd, 0}, target, limits})).
+    static Motion trajectory(const Trajectory& trajectory);
     /// mean + amplitude sin(2 pi t / period + phase); phase in rad.
     static Motion harmonic(double mean, double amplitude, double period, double phase = 0);
     /// Piecewise cubic through points, monotone where the points are: velocity continuous, acceleration jumps at the

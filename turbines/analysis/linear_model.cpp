@@ -174,7 +174,7 @@ MachineLinearModel linear_model(const Machine& source, const LinearModelSettings
     s.machine.foundation.reset();  // it is the machine's now
     if (s.wind || s.rotor_speed.value_or(machine.operation.rotor_speed) != 0)
         solvers::check_azimuths(static_cast<std::size_t>(s.azimuths),
-                                machine.description.own_blades.empty() ? machine.description.blades : 1);
+                                machine.description.individual_blades.empty() ? machine.description.blades : 1);
     if (!s.max_frequency_hz)
         s.max_frequency_hz = usual_frequency(machine.description, assembly_options(machine, s.machine, s.gravity));
     MachineLinearModel linear =

@@ -62,7 +62,7 @@ void set_pitch_bearing(const MachineSettings& settings, Bearing& pitch) {
 // Damping of beams, springs of the pitch bearings.
 void set_beams(const MachineSettings& settings, TurbineDescription& d) {
     std::vector<BladeDescription*> blades{&d.blade};
-    for (auto& [number, blade] : d.own_blades)
+    for (auto& [number, blade] : d.individual_blades)
         if (blade) blades.push_back(&*blade);
     for (BladeDescription* blade : blades) {
         set_pitch_bearing(settings, blade->pitch);

@@ -17,7 +17,7 @@ bool has_spring(const Bearing& bearing) {
 
 void for_each_blade(TurbineDescription& machine, const std::function<void(BladeDescription&)>& change) {
     change(machine.blade);
-    for (auto& [number, blade] : machine.own_blades)
+    for (auto& [number, blade] : machine.individual_blades)
         if (blade) change(*blade);
 }
 

@@ -41,7 +41,7 @@ TurbineDescription nrel5mw_platform_description(const Nrel5mwBlade& blade, const
     d.name = machine_name;
     d.source = blade.source;
     d.rotor_speed = geometry.rated_speed;
-    for (int missing = options.blades + 1; missing <= d.blades; ++missing) d.own_blades[missing] = std::nullopt;
+    for (int missing = options.blades + 1; missing <= d.blades; ++missing) d.individual_blades[missing] = std::nullopt;
     d.tower.line = rigid_massless_line(geometry.tower_height);
     d.tower.rigid = true;
     d.platform = driven_platform();

@@ -111,7 +111,7 @@ Wt600Operation wt600_operation(const Wt600OperationOptions& options) {
         .turbine = bare,
         .grid = std::make_shared<Switch>(options.at_grid),
         .brake_valve = std::make_shared<Switch>(false),
-        .pitch = std::make_shared<DriveCommand>(options.pitch, TravelLimits{8 * units::degree, 15 * units::degree}),
+        .pitch = std::make_shared<DriveCommand>(options.pitch, TrajectoryLimits{8 * units::degree, 15 * units::degree}),
         .generator = {},
         .brake = {},
         .rotor = {},

@@ -66,7 +66,7 @@ std::map<int, BeamDamping> blade_dampings(const TurbineDescription& d, const Ass
     std::optional<BeamDamping> common;
     for (int k = 1; k <= d.blades; ++k) {
         if (d.blade_at(k) == nullptr) continue;
-        const bool own = d.own_blades.contains(k);
+        const bool own = d.individual_blades.contains(k);
         if (!own && !common) common = blade_damping(d, options, k);
         all[k] = own ? blade_damping(d, options, k) : *common;
     }

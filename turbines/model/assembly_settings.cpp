@@ -15,8 +15,8 @@ std::string in_words(const CardanBeamOptions& b) {
     return text(elements, " elements, ",
                 places_hinges(b.partition) ? std::string() : text("delta ", b.hinge_delta(), ", "),
                 partition_name(b.partition), b.extension ? ", extension free" : ", extension condensed",
-                b.torsion ? ", torsion free" : ", torsion condensed", b.held_y ? ", bending about y held" : "",
-                b.held_z ? ", bending about z held" : "");
+                b.torsion ? ", torsion free" : ", torsion condensed", b.locked_y ? ", bending about y held" : "",
+                b.locked_z ? ", bending about z held" : "");
 }
 
 // Tower and blades, as they are made.

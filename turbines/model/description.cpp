@@ -113,7 +113,7 @@ void check_blade(const TurbineDescription& d, const BladeDescription& blade, con
 void check_blades(const TurbineDescription& d, const Ranges& ranges) {
     if (d.blades < 0) throw InputError(d.name, "number of blades", d.blades, ">= 0");
     if (d.blades > 0) check_blade(d, d.blade, "blade", ranges);
-    for (const auto& [number, blade] : d.own_blades) {
+    for (const auto& [number, blade] : d.individual_blades) {
         if (number < 1 || number > d.blades)
             throw InputError(d.name, "number of a blade of its own", number, text("1 ... ", d.blades));
         if (!blade) continue;
@@ -142,8 +142,8 @@ int TurbineDescription::first_blade() const {
 }
 
 const BladeDescription* TurbineDescription::blade_at(int number) const {
-    const auto own = own_blades.find(number);
-    if (own == own_blades.end()) return &blade;
+    const auto own = individual_blades.find(number);
+    if (own == individual_blades.end()) return &blade;
     return own->second ? &*own->second : nullptr;
 }
 

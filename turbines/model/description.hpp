@@ -41,7 +41,7 @@ struct TowerDescription {
     /// machine can be made rigid here and elastic again; a line without sections is massless.
     bool rigid = false;
     /// The tower does not bend in this direction: its coordinates stay at zero.
-    bool held_fore_aft = false, held_side_side = false;
+    bool locked_fore_aft = false, locked_side_side = false;
 };
 
 struct YawDescription {
@@ -161,9 +161,9 @@ struct TurbineDescription {
     NacelleDescription nacelle;
     DriveTrainDescription drive_train;
     HubDescription hub;
-    BladeDescription blade;  ///< all of them, but for those in `own_blades`
+    BladeDescription blade;  ///< all of them, but for those in `individual_blades`
     /// Blades that differ from the others, by their number 1 ... `blades`; empty: that blade is missing.
-    std::map<int, std::optional<BladeDescription>> own_blades = {};
+    std::map<int, std::optional<BladeDescription>> individual_blades = {};
     /// Base of the tower, prescribed or free: a floating platform, a shaking table; none: fixed to the ground.
     std::optional<PlatformDescription> platform = std::nullopt;
     MissingFoundation missing_foundation = {};
@@ -179,7 +179,7 @@ struct TurbineDescription {
     /// The first blade that is there, from 1; beyond the number of blades: there is none.
     int first_blade() const;
     /// Three or more, all there and alike: multi-blade coordinates make their equations constant, or nearly so.
-    bool has_equal_blades() const { return blades > 2 && own_blades.empty(); }
+    bool has_equal_blades() const { return blades > 2 && individual_blades.empty(); }
     /// Whether this part of the machine is there, with all that it needs by itself.
     bool has(MissingEntry::Part part) const;
     /// @throws InputError that names what is missing, and how it is given

@@ -172,7 +172,7 @@ private:
         int max = 1;
         bool shared = false;
         for (int k = 1; k <= description_.blades; ++k) {
-            const bool own = description_.own_blades.contains(k);
+            const bool own = description_.individual_blades.contains(k);
             if (description_.blade_at(k) == nullptr || (!own && shared)) continue;
             max = std::max(max, blade(k));
             shared |= !own;

@@ -118,7 +118,7 @@ TurbineDescription scaled(const TurbineDescription& description, double s) {
         d.hub.teeter->undersling *= s;
     }
     scale(d.blade, s);
-    for (auto& [number, blade] : d.own_blades)
+    for (auto& [number, blade] : d.individual_blades)
         if (blade) scale(*blade, s);
     if (d.platform) d.platform = scaled(*d.platform, s);
     return d;

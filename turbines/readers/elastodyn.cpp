@@ -267,15 +267,15 @@ private:
         own.tip_mass = tip_mass(k);
         const bool other_file =
             !context_.blade && file_.has(file) && file_.has(first) && file_.word(file) != file_.word(first);
-        const auto other_beam = context_.own_blades.find(k);
-        const bool has_beam = other_beam != context_.own_blades.end();
+        const auto other_beam = context_.individual_blades.find(k);
+        const bool has_beam = other_beam != context_.individual_blades.end();
         if (other_file) read_blade_file(own, file, length);
         own.pitch_inertia = has_beam ? pitch_inertia(k, other_beam->second.pitch, other_beam->second.pitch_inertia)
                                      : pitch_inertia(k, context_.pitch, context_.pitch_inertia);
         if (has_beam) set_other_blade(own, other_beam->second, length);
         if (other_file || has_beam || own.cone != d_.blade.cone || own.pitch_setting != 0 ||
             own.tip_mass != d_.blade.tip_mass || own.pitch_inertia != d_.blade.pitch_inertia)
-            d_.own_blades[k] = own;
+            d_.individual_blades[k] = own;
     }
 
     // Of the first blade where another one is not given.

@@ -44,7 +44,7 @@ struct ElastoDynContext {
     Bearing yaw = rigid_joint;                          ///< of the yaw drive (ServoDyn), where YawDOF is True
     Bearing pitch = rigid_joint;                        ///< of the pitch drive (BeamDyn)
     double pitch_inertia = 0;                           ///< of that drive, kg m^2
-    std::map<int, ElastoDynOtherBlade> own_blades =
+    std::map<int, ElastoDynOtherBlade> individual_blades =
         {};  ///< from BeamDyn, by number, where they have files of their own
 };
 

@@ -46,7 +46,8 @@ void read_blades(OpenFastFile& main, const std::filesystem::path& elastodyn, Ela
             continue;
         }
         BeamDynBlade own = read(k);
-        context.own_blades[k] = {std::move(own.beam), own.pitch, own.pitch_inertia, main.path(keyword(k)).string()};
+        context.individual_blades[k] = {std::move(own.beam), own.pitch, own.pitch_inertia,
+                                        main.path(keyword(k)).string()};
     }
 }
 

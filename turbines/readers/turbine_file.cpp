@@ -36,18 +36,18 @@ void set_dofs(const FileDofs& dofs, TurbineDescription& description) {
     description.drive_train.spin = dofs.generator ? CoordinateRole::free : CoordinateRole::driven;
     TowerDescription& tower = description.tower;
     tower.rigid = !dofs.tower_fore_aft && !dofs.tower_side_side;
-    tower.held_fore_aft = !tower.rigid && !dofs.tower_fore_aft;
-    tower.held_side_side = !tower.rigid && !dofs.tower_side_side;
+    tower.locked_fore_aft = !tower.rigid && !dofs.tower_fore_aft;
+    tower.locked_side_side = !tower.rigid && !dofs.tower_side_side;
     description.blade.rigid = !dofs.blades;
-    for (auto& [number, blade] : description.own_blades)
+    for (auto& [number, blade] : description.individual_blades)
         if (blade) blade->rigid = !dofs.blades;
 }
 
 FileDofs dofs_of(const TurbineDescription& description) {
     const TowerDescription& tower = description.tower;
     return {.generator = description.drive_train.spin == CoordinateRole::free,
-            .tower_fore_aft = !tower.rigid && !tower.held_fore_aft,
-            .tower_side_side = !tower.rigid && !tower.held_side_side,
+            .tower_fore_aft = !tower.rigid && !tower.locked_fore_aft,
+            .tower_side_side = !tower.rigid && !tower.locked_side_side,
             .blades = !description.blade.rigid};
 }
 

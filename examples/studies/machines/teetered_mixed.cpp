@@ -24,7 +24,7 @@ void check(const TurbineDescription& d) {
         if (!as_here) throw InputError(d.name, what, "otherwise", allowed);
     };
     require("platform", !d.platform, "none");
-    require("number of blades", d.blades == 2 && d.own_blades.empty(), "2, equal ones");
+    require("number of blades", d.blades == 2 && d.individual_blades.empty(), "2, equal ones");
     const auto turns = [](const Bearing& bearing) {
         return bearing.hold == Bearing::Hold::free || bearing.hold == Bearing::Hold::spring;
     };

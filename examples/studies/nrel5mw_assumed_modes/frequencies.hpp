@@ -34,7 +34,7 @@ inline constexpr std::array<Frequencies, 3> exact{{{0.6772, 1.0855, 1.9516, 3.99
                                                    {0.6904, 1.0875, 1.9663, 4.0015, 5.4719},
                                                    {0.7288, 1.0936, 2.0105, 4.0173, 5.4753}}};
 
-/// The named modes of a blade, told apart by their elastic energy, without velocity terms.
+/// The named modes of a blade, distinguished by their elastic energy, without velocity terms.
 struct NamedModes {
     Frequencies hz{};
     std::array<Vector, modes> shape;

@@ -146,7 +146,7 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
 void PeriodicPointSolver::find_steady_state(double rotor_speed) {
     PeriodicOptions options;
     options.harmonics = options_.floquet.harmonics;
-    options.held = options_.floquet.held;
+    options.fixed_means = options_.floquet.fixed_means;
     options.rotor = &rotor_;
     options.more_harmonics = true;
     options.rotor_speed = rotor_speed;

@@ -11,7 +11,7 @@ namespace cardan::solvers {
 Vector closed_position(const System& system, int spin, double time, const Vector& q) {
     ClosureOptions options;
     options.time = time;
-    if (spin >= 0) options.held = {spin};
+    if (spin >= 0) options.fixed = {spin};
     Closure closure = close_loops(system.model, system.loops, q, options);
     require_result(closure, "steady state");
     return std::move(closure.q);

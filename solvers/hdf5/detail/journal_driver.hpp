@@ -10,8 +10,8 @@ namespace cardan::solvers::detail {
 
 /// State shared by an open file and its owner; outlives the file.
 struct JournalLink {
-    /// First disk error. As with writing_access(), HDF5 is told that the write succeeded; nothing is committed after
-    /// that.
+    /// First disk error. As with writing_access(), HDF5 is given to understand that the write succeeded; nothing is
+    /// committed after that.
     DiskState* disk = nullptr;
     bool reading = false, synchronise = false;
     /// Closing the file commits. Set it only once HDF5 has opened the file, since it may not be an HDF5 file, and reset

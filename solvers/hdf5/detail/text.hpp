@@ -24,7 +24,7 @@ struct CharacterBlock {
     std::vector<char> characters;
 };
 
-/// netCDF4-python up to 1.6 splits arrays of texts in the wrong places when told to decode them, unless there is only
+/// netCDF4-python up to 1.6 splits arrays of texts in the wrong places when asked to decode them, unless there is only
 /// one text or all are ASCII.
 [[nodiscard]] bool may_be_decoded(std::span<const std::string> texts);
 

@@ -111,8 +111,8 @@ void MeanJacobian::set(RotorEquations& equations, const Matrix& x) {
     Vector units = Vector::Ones(x.rows());  // states are in units of their scales
     units.head(n) = unit.head(n);
     moving_ = std::make_unique<FirstOrderWithStates>(mean_, units);
-    held_mean_ = std::make_unique<FirstOrderWithStates>(*moving_);
-    for (const Index row : held_) held_mean_->hold(row);
+    fixed_mean_ = std::make_unique<FirstOrderWithStates>(*moving_);
+    for (const Index row : held_) fixed_mean_->hold(row);
 }
 
 // T(psi) is T(0) with the columns of every turning pair rotated; the same pairs of rows of z, forth or back.
@@ -156,7 +156,7 @@ Vector MeanJacobian::scale(int harmonic) const {
 const ShiftedStates* MeanJacobian::factors(int harmonic) {
     auto known = factors_.find(harmonic);
     if (known == factors_.end()) {
-        known = factors_.try_emplace(harmonic, harmonic == 0 ? *held_mean_ : *moving_).first;
+        known = factors_.try_emplace(harmonic, harmonic == 0 ? *fixed_mean_ : *moving_).first;
         known->second.set(Complex(0, harmonic * rotor_speed_));
     }
     if (known->second.pivot_ratio() > min_ratio) return &known->second;
@@ -177,7 +177,7 @@ bool MeanJacobian::hold_open(const Matrix& stiffness) {
     motion.col(0).cwiseAbs().maxCoeff(&row);
     if (!hold(row)) return false;
     open_.push_back(row);
-    held_mean_->hold(row);
+    fixed_mean_->hold(row);
     return true;
 }
 

@@ -65,8 +65,8 @@ private:
     Matrix basis_, z_basis_;                 ///< at the azimuths, by column
     std::vector<Eigen::Index> held_, open_;  ///< open ones are held, too
     SecondOrderSystem mean_, at_;
-    std::unique_ptr<FirstOrderWithStates> moving_, held_mean_;  ///< the mean system; as the harmonic 0 has it
-    std::map<int, ShiftedStates> factors_;                      ///< by harmonic
+    std::unique_ptr<FirstOrderWithStates> moving_, fixed_mean_;  ///< the mean system; as the harmonic 0 has it
+    std::map<int, ShiftedStates> factors_;                       ///< by harmonic
 };
 
 }  // namespace cardan::solvers

@@ -192,7 +192,7 @@ void RotorEquations::close(Matrix& own, int azimuths) {
     for (int s = 0; s <= azimuths; ++s) {
         set_on(own, 2 * pi * s / azimuths);
         const Closure closed =
-            close_loops(system_.model, system_.loops, at_.q + correction, {.time = at_.time, .held = {spin_}});
+            close_loops(system_.model, system_.loops, at_.q + correction, {.time = at_.time, .fixed = {spin_}});
         if (!closed.converged) return;
         correction = closed.q - at_.q;
         last = closed.q(unknowns_);

@@ -30,7 +30,7 @@ struct FlexibleSliderCrank {
         CardanBeamOptions options;
         options.elements = elements;
         options.torsion = false;
-        options.held_y = true;
+        options.locked_y = true;
         Tree tree;
         ForceSet forces;
         const Bar crank = add_bar(tree, "crank", Tree::base(), r, bar_along_x(0.36, r), CoordinateRole::driven);

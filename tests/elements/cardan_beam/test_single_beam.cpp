@@ -20,7 +20,7 @@ BeamLine uniform() {
 }  // namespace
 
 TEST_CASE("clamped beam: natural modes in two calls are those of Euler and Bernoulli", "[analytic]") {
-    const SingleBeam beam = clamped_beam(uniform(), {.elements = 32, .torsion = false, .held_z = true});
+    const SingleBeam beam = clamped_beam(uniform(), {.elements = 32, .torsion = false, .locked_z = true});
     CHECK(beam.spin == -1);
     const solvers::NaturalModes found = solvers::natural_modes(beam.system);
     REQUIRE(found.modes.size() == found.unknowns.size());
@@ -32,7 +32,7 @@ TEST_CASE("clamped beam: natural modes in two calls are those of Euler and Berno
 
 TEST_CASE("clamped beam: its tip is at its length, and below by m g L^4 / 8 EI under its weight", "[analytic]") {
     const double g = 1e-3;  // so little that the deflection is linear
-    const SingleBeam beam = clamped_beam(uniform(), {.elements = 32, .torsion = false, .held_z = true}, {0, 0, -g});
+    const SingleBeam beam = clamped_beam(uniform(), {.elements = 32, .torsion = false, .locked_z = true}, {0, 0, -g});
     const int n = beam.system.model.size();
     CHECK((beam.tip(Vector::Zero(n)).p - Vec3(length, 0, 0)).norm() < 1e-12);
     const solvers::NaturalModes found = solvers::natural_modes(beam.system);
@@ -44,7 +44,7 @@ TEST_CASE("clamped beam: its tip is at its length, and below by m g L^4 / 8 EI u
 TEST_CASE("spinning beam: first flap of a uniform blade over the rotor speed in two calls", "[published]") {
     // A. D. Wright, C. E. Smith, R. W. Thresher, J. L. C. Wang, J. Appl. Mech. 49 (1982): power series; in multiples of
     // sqrt(EI / m L^4).
-    const SingleBeam blade = spinning_beam(uniform(), {.elements = 32, .torsion = false, .held_z = true});
+    const SingleBeam blade = spinning_beam(uniform(), {.elements = 32, .torsion = false, .locked_z = true});
     const double unit = std::sqrt(EI / mass) / (length * length);
     for (const auto& [speed, flap] : {std::pair{0., 3.5160}, {3., 4.7973}, {12., 13.1702}}) {
         const solvers::NaturalModes found = solvers::natural_modes(blade.system, blade.spin, speed * unit);
@@ -55,7 +55,7 @@ TEST_CASE("spinning beam: first flap of a uniform blade over the rotor speed in 
 
 TEST_CASE("single beams: what is out of range is refused", "[property]") {
     CHECK_THROWS_AS(spinning_beam(uniform(), {.torsion = false}, -1), InputError);
-    const SingleBeam stiff = clamped_beam(uniform(), {.torsion = false, .held_y = true, .held_z = true});
+    const SingleBeam stiff = clamped_beam(uniform(), {.torsion = false, .locked_y = true, .locked_z = true});
     CHECK_THROWS_WITH(solvers::natural_modes(stiff.system), Catch::Contains("coordinates that can move = 0"));
     const SingleBeam beam = clamped_beam(uniform(), {.torsion = false});
     CHECK_THROWS_AS(solvers::natural_modes(beam.system, 0, std::nan("")), InputError);

@@ -13,7 +13,7 @@ using namespace cardan::testing;
 
 namespace {
 
-constexpr TravelLimits limits{0.4, 0.9};
+constexpr TrajectoryLimits limits{0.4, 0.9};
 
 ElasticDrive drive_on(BodyId coordinate, std::shared_ptr<const DriveCommand> command, double sense = 1) {
     return {.name = "pitch drive",
@@ -37,7 +37,7 @@ TEST_CASE("drive: a new command starts from where the last one has come to, with
     command.move_to(1.5, 2);
     CHECK(command.target() == 1.5);
     CHECK(command.at(2).position == Approx(0.1));
-    const Travel::State before = command.at(3.1);
+    const Trajectory::State before = command.at(3.1);
     CHECK(before.rate > 0.3);
     command.move_to(-0.2, 3.1);  // at full rate
     CHECK(command.at(3.1).position == Approx(before.position).epsilon(1e-14));
@@ -51,7 +51,7 @@ TEST_CASE("drive: a new command starts from where the last one has come to, with
 
 TEST_CASE("drive: a command repeated at any sampling rate acts as one command", "[analytic]") {
     constexpr double target = 20 * units::degree, rate = 8 * units::degree, acceleration = 15 * units::degree;
-    const TravelLimits pitch{rate, acceleration};
+    const TrajectoryLimits pitch{rate, acceleration};
     // Up and down to the largest rate take 3/2 rate / acceleration each, and half the distance of that at the full
     // rate.
     const double arrival = target / rate + 1.5 * rate / acceleration;
@@ -61,7 +61,7 @@ TEST_CASE("drive: a command repeated at any sampling rate acts as one command", 
         for (int k = 0; k * period < 20; ++k) {
             const double t = k * period;
             repeated.move_to(target, t);
-            const Travel::State now = repeated.at(t + period / 3), one = single.at(t + period / 3);
+            const Trajectory::State now = repeated.at(t + period / 3), one = single.at(t + period / 3);
             REQUIRE(now.position == one.position);
             REQUIRE(now.rate == one.rate);
             REQUIRE(now.acceleration == one.acceleration);
@@ -77,12 +77,12 @@ TEST_CASE("drive: commands that change with every sample are followed without ov
     constexpr double top = 0.5, slope = 0.1;
     for (double period : {0.05, 0.02, 0.001}) {
         DriveCommand drive(0, limits);
-        Travel::State last;
+        Trajectory::State last;
         double worst = 0;
         for (int k = 0; k * period < 12; ++k) {
             const double t = k * period, command = std::min(top, slope * t);
             drive.move_to(command * (1 + 1e-12 * (k % 3)), t);
-            const Travel::State now = drive.at(t);
+            const Trajectory::State now = drive.at(t);
             CAPTURE(period, t);
             REQUIRE(std::abs(now.position - last.position) <= limits.rate * period * (1 + 1e-9));
             REQUIRE(std::abs(now.rate - last.rate) <= limits.acceleration * period * (1 + 1e-9));
@@ -126,9 +126,9 @@ TEST_CASE("drive: a command while moving is smooth in position, rate and acceler
     int moving = 0;
     for (int k = 1; k <= 200; ++k) {
         const double t = 0.037 * k;
-        const Travel::State before = command.at(t);
+        const Trajectory::State before = command.at(t);
         command.move_to(std::sin(3.7 * k), t);
-        const Travel::State after = command.at(t);
+        const Trajectory::State after = command.at(t);
         REQUIRE(after.position == Approx(before.position).margin(1e-12));
         REQUIRE(after.rate == Approx(before.rate).margin(1e-12));
         REQUIRE(after.acceleration == Approx(before.acceleration).margin(1e-12));
@@ -143,7 +143,7 @@ TEST_CASE("drive: a spring and a damper about the command, in either sense", "[a
     for (double sense : {1.0, -1.0}) {
         const System system = driven({}, command, sense);
         for (double t : {-1.0, 0.3, 1.4, 9.0}) {
-            const Travel::State p = command->at(t);
+            const Trajectory::State p = command->at(t);
             const double q = 0.7, qd = -0.3, x = q - sense * p.position, v = qd - sense * p.rate;
             const OneForce f = evaluate(system, t, q, qd);
             CHECK(f.Q == Approx(-500 * x - 20 * v).epsilon(1e-13));

@@ -325,9 +325,9 @@ TEST_CASE("loops: what does not fit is refused with names", "[bad-input]") {
     check_refused([&] { (void)close_loops(system.model, system.loops, Vector{{0.1, not_a_number}}); }, {"'two'"});
     check_refused(
         [&] {
-            (void)close_loops(system.model, system.loops, Vector{{0.1, 0}}, {.held = {7}});
+            (void)close_loops(system.model, system.loops, Vector{{0.1, 0}}, {.fixed = {7}});
         },
-        {"held coordinate", "7"});
+        {"fixed coordinate", "7"});
     check_refused([&] { system.require_no_loops("this"); }, {"this", "rod"});
 }
 

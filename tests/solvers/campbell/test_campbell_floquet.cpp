@@ -235,8 +235,8 @@ TEST_CASE("campbell by Floquet: what cannot be computed is refused", "[property]
     options.floquet.tolerance = 0;
     check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"tolerance", "> 0"});
     options = by(CampbellMethod::floquet);
-    options.floquet.held = {99};
-    check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"mean is held = 99"});
+    options.floquet.fixed_means = {99};
+    check_refused([&] { (void)diagram_of(two, {1.0}, options); }, {"mean is fixed = 99"});
 }
 
 TEST_CASE("campbell by Floquet: too few steps give a warning", "[property]") {

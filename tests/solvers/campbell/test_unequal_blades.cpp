@@ -25,7 +25,7 @@ namespace {
 
 // A chain of hinges about the flap axis, the innermost 0.5 m from the rotor axis, each 2 m from the next, with a lag
 // hinge at the end if it has a stiffness; a point mass 2 m outboard of every hinge.
-struct OwnBlade {
+struct IndividualBlade {
     std::vector<double> flap = {4000, 2500};
     double lag = 3000;
     double mass = 3;
@@ -33,7 +33,7 @@ struct OwnBlade {
 };
 
 struct Spec {
-    std::vector<OwnBlade> blades;
+    std::vector<IndividualBlade> blades;
     std::vector<int> places = {};  // numbers from 1; empty: 1 ... number of blades
     int of = 0;                    // places
     bool support = true;
@@ -67,7 +67,7 @@ Rotor rotor_of(const Spec& spec) {
     std::vector<std::vector<BodyId>> bodies(spec.blades.size());
     FrameId axes = spin.axes;
     for (std::size_t k = 0; k < spec.blades.size(); ++k) {
-        const OwnBlade& own = spec.blades[k];
+        const IndividualBlade& own = spec.blades[k];
         const int number = spec.places.empty() ? static_cast<int>(k) + 1 : spec.places[k];
         const Mat3 R = rot_z(spec.azimuth + 2 * pi * (number - 1) / places);
         FrameId reached = tree.add_frame(spin.axes, {R, R * Vec3(0.5, 0, 0)}, text("root ", number));
@@ -109,7 +109,7 @@ Campbell diagram_of(const Rotor& rotor, const std::vector<double>& speeds, Campb
 }
 
 Rotor equal(std::size_t blades, Vec3 gravity = Vec3::Zero()) {
-    return rotor_of({.blades = std::vector<OwnBlade>(blades), .gravity = gravity});
+    return rotor_of({.blades = std::vector<IndividualBlade>(blades), .gravity = gravity});
 }
 
 // Three blades, the second heavier by a part.
@@ -148,7 +148,7 @@ TEST_CASE("unequal blades: the diagram says which method was taken and why", "[p
     const auto diagram = [](const Spec& spec, std::vector<double> speeds = {2.0}) {
         return diagram_of(rotor_of(spec), speeds);
     };
-    const Spec three{.blades = std::vector<OwnBlade>(3)};
+    const Spec three{.blades = std::vector<IndividualBlade>(3)};
     CHECK(diagram(three).method == "Coleman (fixed frame)");
     CHECK(diagram(three).method_reason.empty());
     Spec spec = three;
@@ -161,13 +161,13 @@ TEST_CASE("unequal blades: the diagram says which method was taken and why", "[p
     spec.blades[1].flap = {4000, 2500, 1000};
     CHECK(diagram(spec).method_reason == "blade 2 has other coordinates than blade 1");
     CHECK(diagram(spec).method.find("blade modes in the rotating frame") != std::string::npos);
-    spec = {.blades = std::vector<OwnBlade>(2)};
+    spec = {.blades = std::vector<IndividualBlade>(2)};
     CHECK(diagram(spec).method_reason == "two blades");
     spec.places = {1, 3}, spec.of = 3;
     CHECK(diagram(spec).method_reason == "blade 2 of 3 is missing");
-    spec = {.blades = std::vector<OwnBlade>(3), .places = {1, 3, 4}, .of = 5};
+    spec = {.blades = std::vector<IndividualBlade>(3), .places = {1, 3, 4}, .of = 5};
     CHECK(diagram(spec).method_reason == "blades 2 and 5 of 5 are missing");
-    Rotor by_hand = rotor_of({.blades = std::vector<OwnBlade>(3), .places = {1, 2, 3}, .of = 4});
+    Rotor by_hand = rotor_of({.blades = std::vector<IndividualBlade>(3), .places = {1, 2, 3}, .of = 4});
     by_hand.map.missing_blades.clear();
     CHECK(diagram_of(by_hand, {2.0}).method_reason == "the blades are not evenly spaced");
     const Vec3 down(0, -units::standard_gravity, 0);
@@ -196,8 +196,8 @@ TEST_CASE("unequal blades: table and CSV say why, a diagram over a parameter say
 
 TEST_CASE("unequal blades: what needs multi-blade coordinates is refused with the reason and the remedy",
           "[property]") {
-    const Rotor uneven = rotor_of({.blades = std::vector<OwnBlade>(3), .places = {1, 2, 4}, .of = 4}),
-                two = rotor_of({.blades = std::vector<OwnBlade>(2), .places = {1, 3}, .of = 3}),
+    const Rotor uneven = rotor_of({.blades = std::vector<IndividualBlade>(3), .places = {1, 2, 4}, .of = 4}),
+                two = rotor_of({.blades = std::vector<IndividualBlade>(2), .places = {1, 3}, .of = 3}),
                 other = rotor_of({.blades = {{}, {}, {.flap = {4000}}}});
     for (const CampbellMethod method :
          {CampbellMethod::coleman, CampbellMethod::averaged, CampbellMethod::frozen_azimuth}) {
@@ -227,9 +227,9 @@ TEST_CASE("unequal blades: automatic diagrams have the exponents of a brute-forc
     int floquet = 0;
     for (int i = 0; i < 12; ++i) {
         const int blades = 1 + i % 5;
-        Spec spec{.blades = std::vector<OwnBlade>(static_cast<std::size_t>(blades)),
+        Spec spec{.blades = std::vector<IndividualBlade>(static_cast<std::size_t>(blades)),
                   .gravity = i % 3 == 0 ? Vec3(0, -units::standard_gravity, 0) : Vec3(Vec3::Zero())};
-        OwnBlade& last = spec.blades.back();
+        IndividualBlade& last = spec.blades.back();
         if (i % 2 == 0) last.mass *= uniform(random, 0.7, 1.3);
         if (i % 4 == 1) last.flap[0] *= uniform(random, 0.7, 1.3);
         if (i % 5 == 3) last.lag = 0;
@@ -424,7 +424,7 @@ TEST_CASE("unequal blades: evenly spaced ones of more places are as others", "[c
     // 1, 3 and 5 of six; 2, 4 and 6, where the first one is not up at azimuth 0.
     const Campbell three = diagram_of(equal(3), {2.0});
     for (const std::vector<int>& places : {std::vector<int>{1, 3, 5}, {2, 4, 6}}) {
-        Rotor rotor = rotor_of({.blades = std::vector<OwnBlade>(3), .places = places, .of = 6});
+        Rotor rotor = rotor_of({.blades = std::vector<IndividualBlade>(3), .places = places, .of = 6});
         rotor.map.evenly_spaced = true;
         const Campbell some = diagram_of(rotor, {2.0});
         CHECK(some.method == three.method);

@@ -59,14 +59,14 @@ TEST_CASE("half turn: the same steady state as by all coefficients and by shooti
         }
 }
 
-TEST_CASE("half turn: a held mean, and a start where the blades are not alike", "[crosscheck]") {
+TEST_CASE("half turn: a fixed mean, and a start where the blades are not alike", "[crosscheck]") {
     const SmallRotor rotor = two_blades(500);
     for (const char* name : {"yaw", "flap 2"}) {
         const int held = rotor.system.model.index(name);
         CAPTURE(name);
         const auto solved = [&](const RotorMap* map) {
             PeriodicOptions options = at_speed(4, map);
-            options.held = {held};
+            options.fixed_means = {held};
             options.start = Matrix::Zero(rotor.system.model.size(), 1);
             options.start(held, 0) = 0.05;
             return harmonic_balance(rotor.system, rotor.map.spin, options);
@@ -76,7 +76,7 @@ TEST_CASE("half turn: a held mean, and a start where the blades are not alike", 
         REQUIRE(half.converged);
         CHECK(half.coefficients(held, 0) == Approx(0.05).epsilon(1e-14));
         CHECK(largest_difference(half.coefficients, all.coefficients) < 1e-9);
-        CHECK(half.held.at(0).load == Approx(all.held.at(0).load).epsilon(1e-6));
+        CHECK(half.fixed_means.at(0).load == Approx(all.fixed_means.at(0).load).epsilon(1e-6));
     }
 }
 

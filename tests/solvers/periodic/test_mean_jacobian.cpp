@@ -165,12 +165,12 @@ TEST_CASE("mean Jacobian: a mean that nothing holds stays where it started, with
     CHECK(std::abs(dx(jacobian->open()[0], 0)) < 1e-15);
 }
 
-TEST_CASE("mean Jacobian: held means and what it cannot do", "[crosscheck]") {
+TEST_CASE("mean Jacobian: fixed means and what it cannot do", "[crosscheck]") {
     const SmallRotor rotor = soft_rotor({500, 500, 500});
     const int yaw = rotor.system.model.index("yaw"), flap = rotor.system.model.index("flap 2");
     for (const int held : {yaw, flap}) {
         PeriodicOptions options = turning_at(4, 6);
-        options.held = {held};
+        options.fixed_means = {held};
         options.start = Matrix::Zero(rotor.system.model.size(), 1);
         options.start(held, 0) = 0.05;
         const PeriodicSteadyState newton = harmonic_balance(rotor.system, rotor.map.spin, options);
@@ -180,7 +180,7 @@ TEST_CASE("mean Jacobian: held means and what it cannot do", "[crosscheck]") {
         REQUIRE(mean.converged);
         CHECK(mean.coefficients(held, 0) == 0.05);
         CHECK(largest_difference(mean, newton) < 1e-8);
-        CHECK(mean.held.at(0).load == Approx(newton.held.at(0).load).epsilon(1e-6));
+        CHECK(mean.fixed_means.at(0).load == Approx(newton.fixed_means.at(0).load).epsilon(1e-6));
     }
     // Two blades and one: Newton's steps.
     CHECK(!mean_jacobian(soft_rotor({500, 500}), turning_at(4)));

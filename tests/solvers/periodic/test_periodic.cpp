@@ -265,17 +265,17 @@ TEST_CASE("periodic state: a mean that nothing holds stays where it started, and
     CHECK(shot.note.find("multiplier") != std::string::npos);
     CHECK(shot.coefficients(1, 1) == Approx(-F / Omega / Omega));
 
-    // With a mean load there is no periodic motion unless the mean is held.
+    // With a mean load there is no periodic motion unless the mean is fixed.
     const System pulled = free.system(cubic(0, [=](double t) { return 5 + F * std::cos(Omega * t); }));
     const PeriodicSteadyState none = harmonic_balance(pulled, 0, options);
     CHECK(!none.converged);
     CHECK(none.message.find("mean load on a coordinate that nothing holds") != std::string::npos);
     CHECK(none.message.find("'mass'") != std::string::npos);
-    options.held = {1};
+    options.fixed_means = {1};
     const PeriodicSteadyState held = harmonic_balance(pulled, 0, options);
     REQUIRE(held.converged);
-    REQUIRE(held.held.size() == 1);
-    CHECK(held.held[0].load == Approx(-5));
+    REQUIRE(held.fixed_means.size() == 1);
+    CHECK(held.fixed_means[0].load == Approx(-5));
     CHECK(held.coefficients(1, 0) == Approx(0.7));
     CHECK(held.coefficients(1, 1) == Approx(-F / Omega / Omega));
     CHECK(held.note.empty());
@@ -374,11 +374,11 @@ TEST_CASE("periodic state: bad options are refused with the value and the limit"
     refused([](PeriodicOptions& o) { o.iterations = 0; }, {"limit of iterations", "0"});
     refused([](PeriodicOptions& o) { o.start = Matrix::Zero(3, 2); }, {"size of the start", "3 x 2"});
     refused([](PeriodicOptions& o) { o.start = Matrix::Constant(3, 1, NAN); }, {"start", "finite"});
-    refused([&](PeriodicOptions& o) { o.held = {spin}; }, {"mean is held", text(spin)});
+    refused([&](PeriodicOptions& o) { o.fixed_means = {spin}; }, {"mean is fixed", text(spin)});
     check_refused([&] { (void)harmonic_balance(system, -1, at_speed(2)); }, {"spin coordinate", "-1"});
     PeriodicOptions options = at_speed(2, 3);
-    options.held = {0};
-    check_refused([&] { (void)shooting(system, spin, options); }, {"held means", "1"});
+    options.fixed_means = {0};
+    check_refused([&] { (void)shooting(system, spin, options); }, {"fixed means", "1"});
     options = at_speed(2, 3);
     options.steps = 5;
     check_refused([&] { (void)shooting(system, spin, options); }, {"steps per revolution", "5", ">= 7"});

@@ -258,8 +258,8 @@ TEST_CASE("closed loops: events, checkpoints and outputs", "[analytic]") {
 TEST_CASE("closed loops: continued from any checkpoint, a run goes on bit for bit", "[property]") {
     const FourBar machine(CoordinateRole::free);
     const System& system = machine.system;
-    const Closure closed = close_loops(system.model, system.loops, FourBar::position(1, 1, 2), {.held = {0}});
-    const Vector rates = close_rates(system.model, system.loops, closed.q, Vec3(9, 0, 0), {.held = {0}});
+    const Closure closed = close_loops(system.model, system.loops, FourBar::position(1, 1, 2), {.fixed = {0}});
+    const Vector rates = close_rates(system.model, system.loops, closed.q, Vec3(9, 0, 0), {.fixed = {0}});
     for (const Method method : {Method::dirk, Method::erk}) {
         const IntegrationOptions options = with(method, 1e-7, 1e-8);
         Integrator whole(system, {}, 0, closed.q, rates, options);
@@ -356,7 +356,7 @@ TEST_CASE("closed loops: starts and methods that do not fit are refused", "[bad-
     const std::vector<int> held = {0, 2};
     check_refused(
         [&] {
-            (void)close_rates(system.model, system.loops, closed.q, Vector{{1, 0, 1}}, {.held = held});
+            (void)close_rates(system.model, system.loops, closed.q, Vector{{1, 0, 1}}, {.fixed = held});
         },
         {"pin B", "contradict"});
     check_refused(
@@ -365,7 +365,7 @@ TEST_CASE("closed loops: starts and methods that do not fit are refused", "[bad-
         },
         {"pin B", "opens at the start", "contradict"});
     // At rates that do so at the start only.
-    const Vector fit = close_rates(system.model, system.loops, closed.q, Vector{{1, 0, 0}}, {.held = {0}});
+    const Vector fit = close_rates(system.model, system.loops, closed.q, Vector{{1, 0, 0}}, {.fixed = {0}});
     both[1].motion = Motion::constant_rate(closed.q(2), fit(2));
     for (const Method method : closing) {
         CAPTURE(static_cast<int>(method));

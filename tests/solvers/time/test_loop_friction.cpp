@@ -163,10 +163,10 @@ TEST_CASE("friction in a loop: the rocker of a four-bar takes energy at every sw
     };
     const auto wrapped = [](double angle) { return std::remainder(angle, 2 * pi); };
     const double start = 0.5;
-    const Closure closed = close_loops(system.model, system.loops, FourBar::position(start, 1, 2), {.held = {0}});
+    const Closure closed = close_loops(system.model, system.loops, FourBar::position(start, 1, 2), {.fixed = {0}});
     REQUIRE(closed.converged);
     REQUIRE(std::abs(wrapped(closed.q(2) - rocker_angle(start))) < 1e-12);
-    const Vector rates = close_rates(system.model, system.loops, closed.q, Vec3(12, 0, 0), {.held = {0}});
+    const Vector rates = close_rates(system.model, system.loops, closed.q, Vec3(12, 0, 0), {.fixed = {0}});
     IntegrationOptions options = with(Method::dirk, 1e-9, 1e-10);
     options.events = stick_slip(system, frictions, {}, 0, closed.q, rates);
     Integrator run(system, {}, 0, closed.q, rates, options);

@@ -56,7 +56,7 @@ Turbine wing(int elements, bool with_air = true) {
     d.blade.line = uniform_beam(span, wing_section(with_air), "wing");
     AssemblyOptions options;
     options.pitch = pi / 2;
-    options.blade_beam = {.elements = elements, .held_z = true};
+    options.blade_beam = {.elements = elements, .locked_z = true};
     return isolated_blade(d, options);
 }
 

@@ -91,7 +91,7 @@ TEST_CASE("rigid blades: in the wind they are those of a rigid rotor", "[crossch
         own.options.pitch = 0.03;
         d.tower.rigid = true;
         d.nacelle.tilt = 0;
-        d.own_blades.clear();
+        d.individual_blades.clear();
         own.air.prebend.assign(own.air.sections(), 0);
         own.air.sweep = own.air.prebend;
         const Turbine machine = assemble(d, own.options);

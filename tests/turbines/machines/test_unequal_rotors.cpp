@@ -73,11 +73,11 @@ TEST_CASE(
         d.blades = i % 3 == 1 ? 2 : number(1, 5);
         for (int k = 1; k <= d.blades; ++k) {
             if (d.blades > 1 && uniform(random, 0, 1) < 0.2) {
-                d.own_blades[k] = std::nullopt;
+                d.individual_blades[k] = std::nullopt;
                 continue;
             }
             if (uniform(random, 0, 1) < 0.6) continue;
-            turbines::BladeDescription& own = *(d.own_blades[k] = d.blade);
+            turbines::BladeDescription& own = *(d.individual_blades[k] = d.blade);
             // Drawn one by one: compilers differ in the order in which they evaluate arguments.
             const double second = uniform(random, 0.8, 1.2), first = uniform(random, 0.8, 1.2);
             own.line = scaled(d.blade.line, first, second);
@@ -134,23 +134,23 @@ TEST_CASE("unequal rotors: of three places one is empty, one blade has a held pi
                         {.max_frequency_hz = 2, .keep_shapes = false})
             .method_reason;
     };
-    CHECK(reason([](D& d) { d.own_blades[2] = std::nullopt; }) == "blade 2 of 3 is missing");
+    CHECK(reason([](D& d) { d.individual_blades[2] = std::nullopt; }) == "blade 2 of 3 is missing");
     CHECK(reason([](D& d) {
               d.blades = 4;
-              d.own_blades[3] = std::nullopt;
+              d.individual_blades[3] = std::nullopt;
           }) == "blade 3 of 4 is missing");
     CHECK(reason([](D& d) {
               d.blades = 4;
-              d.own_blades[1] = d.own_blades[3] = std::nullopt;
+              d.individual_blades[1] = d.individual_blades[3] = std::nullopt;
           }) == "two blades");
     CHECK(reason([](D& d) {
               d.blades = 6;
-              d.own_blades[1] = d.own_blades[3] = d.own_blades[5] = std::nullopt;
+              d.individual_blades[1] = d.individual_blades[3] = d.individual_blades[5] = std::nullopt;
           }).empty());
-    CHECK(reason([](D& d) { (d.own_blades[1] = d.blade)->pitch = turbines::driven_joint; }) ==
+    CHECK(reason([](D& d) { (d.individual_blades[1] = d.blade)->pitch = turbines::driven_joint; }) ==
           "blade 2 has other coordinates than blade 1");
-    CHECK(reason([](D& d) { (d.own_blades[2] = d.blade)->pitch_setting = 0.02; }) == "the blades differ");
-    CHECK(reason([](D& d) { (d.own_blades[2] = d.blade)->cone = 0.01; }) == "the blades differ");
+    CHECK(reason([](D& d) { (d.individual_blades[2] = d.blade)->pitch_setting = 0.02; }) == "the blades differ");
+    CHECK(reason([](D& d) { (d.individual_blades[2] = d.blade)->cone = 0.01; }) == "the blades differ");
     // A free generator with one blade.
     D d = turbines::wt600_description();
     d.blades = 1;
@@ -165,8 +165,8 @@ TEST_CASE("unequal rotors: a free generator that unbalance or gravity hold weakl
     const double slow = 9 * units::rpm;
     for (const bool gravity : {false, true}) {
         D d = turbines::wt600_description();
-        d.own_blades[2] = std::nullopt;
-        if (gravity) (d.own_blades[2] = d.blade)->line = scaled(d.blade.line, 1.05, 1);
+        d.individual_blades[2] = std::nullopt;
+        if (gravity) (d.individual_blades[2] = d.blade)->line = scaled(d.blade.line, 1.05, 1);
         const Turbine turbine = turbines::assemble(d, small(gravity));
         const Campbell diagram = campbell(turbine.system(), turbine.rotor(), {slow, 2 * slow},
                                           {.max_frequency_hz = 0.6, .keep_shapes = false});
@@ -183,8 +183,8 @@ TEST_CASE("unequal rotors: a free generator that unbalance or gravity hold weakl
 
 TEST_CASE("unequal rotors: pitch bearings that only some blades have are named as such", "[property]") {
     D d = turbines::wt600_description();
-    d.own_blades[1] = d.blade;
-    d.own_blades[1]->pitch = turbines::driven_joint;
+    d.individual_blades[1] = d.blade;
+    d.individual_blades[1]->pitch = turbines::driven_joint;
     const Turbine turbine = turbines::assemble(d, small(false));
     const Campbell diagram = campbell(turbine.system(), turbine.rotor(), {0.0}, {.max_frequency_hz = 1000});
     std::vector<std::string> families;

@@ -65,13 +65,13 @@ TEST_CASE("held beams: rigid blades are one element of the true mass, and nothin
 TEST_CASE("held beams: a tower that is held in one direction moves as one that is stiff in it", "[crosscheck]") {
     for (const bool fore_aft : {true, false}) {
         TurbineDescription held = turbines::wt600_description(), stiff = held;
-        (fore_aft ? held.tower.held_fore_aft : held.tower.held_side_side) = true;
+        (fore_aft ? held.tower.locked_fore_aft : held.tower.locked_side_side) = true;
         stiff.tower.line = stiffened(stiff.tower.line, !fore_aft, fore_aft, false);
         check_lowest(frequencies(turbines::assemble(held, undamped()), 0),
                      frequencies(turbines::assemble(stiff, undamped()), 0), 5);
         // The same through the options in full.
         turbines::AssemblyOptions options = undamped();
-        options.tower_beam = CardanBeamOptions{.held_y = !fore_aft, .held_z = fore_aft};
+        options.tower_beam = CardanBeamOptions{.locked_y = !fore_aft, .locked_z = fore_aft};
         CHECK(frequencies(turbines::assemble(turbines::wt600_description(), options), 0) ==
               frequencies(turbines::assemble(held, undamped()), 0));
     }
@@ -81,15 +81,15 @@ TEST_CASE("held beams: they are kept in YAML", "[property]") {
     TurbineDescription d = turbines::wt600_description();
     const auto read = [&] { return turbines::parse_description(turbines::description_text(d), "own"); };
     CHECK_FALSE(read().blade.rigid);
-    d.blade.rigid = d.tower.held_fore_aft = true;
-    d.own_blades[2] = d.blade;
-    d.own_blades[2]->rigid = false;
+    d.blade.rigid = d.tower.locked_fore_aft = true;
+    d.individual_blades[2] = d.blade;
+    d.individual_blades[2]->rigid = false;
     CHECK(read().blade.rigid);
-    CHECK_FALSE(read().own_blades[2]->rigid);
-    CHECK(read().tower.held_fore_aft);
-    CHECK_FALSE(read().tower.held_side_side);
-    d.tower.held_fore_aft = false;
-    d.tower.held_side_side = true;
-    CHECK_FALSE(read().tower.held_fore_aft);
-    CHECK(read().tower.held_side_side);
+    CHECK_FALSE(read().individual_blades[2]->rigid);
+    CHECK(read().tower.locked_fore_aft);
+    CHECK_FALSE(read().tower.locked_side_side);
+    d.tower.locked_fore_aft = false;
+    d.tower.locked_side_side = true;
+    CHECK_FALSE(read().tower.locked_fore_aft);
+    CHECK(read().tower.locked_side_side);
 }

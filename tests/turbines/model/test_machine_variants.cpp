@@ -82,7 +82,7 @@ TEST_CASE("machine variants: a bearing that was not given is refused with its na
     check_description_refused([](D& d) { d.blade.pitch = {}; }, {"blade.pitch.stiffness", "not given"});
     check_description_refused([](D& d) { d.drive_train.main_shaft = {}; }, {"main_shaft.stiffness", "not given"});
     check_description_refused([](D& d) { d.hub.teeter.emplace(); }, {"hub.teeter.stiffness", "not given"});
-    check_description_refused([](D& d) { d.own_blades[2].emplace(); }, {"own_blades[2].pitch", "not given"});
+    check_description_refused([](D& d) { d.individual_blades[2].emplace(); }, {"own_blades[2].pitch", "not given"});
     check_description_refused([](D& d) { d.yaw.rotation.stiffness = 0; }, {"yaw.rotation", "= 0", "free_joint"});
     check_description_refused([](D& d) { d.yaw.rotation.hold = Bearing::Hold::free; },
                               {"yaw.rotation.stiffness", "only Bearing::Hold::spring"});
@@ -130,16 +130,16 @@ TEST_CASE("machine variants: a free joint is the limit of a weak spring", "[prop
 }
 
 TEST_CASE("machine variants: a blade of its own that is like the others changes nothing", "[property]") {
-    const Turbine common = machine([](D&) {}), own = machine([](D&d) { d.own_blades[2] = d.blade; });
+    const Turbine common = machine([](D&) {}), own = machine([](D&d) { d.individual_blades[2] = d.blade; });
     CHECK(frequencies(common, 27 * rpm) == frequencies(own, 27 * rpm));
 }
 
 TEST_CASE("machine variants: each blade has its own mass, stiffness, cone and pitch", "[analytic]") {
     D d = turbines::wt600_description();
-    d.own_blades[3] = d.blade;
-    d.own_blades[3]->line = heavier(d.blade.line, 1.21);
-    d.own_blades[3]->cone = 0.03;
-    d.own_blades[3]->pitch_setting = 0.1;
+    d.individual_blades[3] = d.blade;
+    d.individual_blades[3]->line = heavier(d.blade.line, 1.21);
+    d.individual_blades[3]->cone = 0.03;
+    d.individual_blades[3]->pitch_setting = 0.1;
     const Turbine unequal = turbines::assemble(d, undamped(2)), equal = machine([](D&) {});
     const double blade = equal.layout().blades[0].mass;
     CHECK(unequal.system().model.mass() - equal.system().model.mass() == Approx(0.21 * blade).epsilon(1e-9));
@@ -157,7 +157,7 @@ TEST_CASE("machine variants: each blade has its own mass, stiffness, cone and pi
 }
 
 TEST_CASE("machine variants: of three places one may be empty, and a hub may have no blades", "[analytic]") {
-    const Turbine three = machine([](D&) {}), two = machine([](D&d) { d.own_blades[2] = std::nullopt; }),
+    const Turbine three = machine([](D&) {}), two = machine([](D&d) { d.individual_blades[2] = std::nullopt; }),
                   none = machine([](D&d) { d.blades = 0; });
     CHECK(two.layout().blade_numbers == std::vector<int>{1, 3});
     CHECK(two.rotor().blades.size() == 2);
@@ -173,10 +173,11 @@ TEST_CASE("machine variants: of three places one may be empty, and a hub may hav
     CHECK(std::count(names.begin(), names.end(), "RootMyb3") == 1);
     CHECK(std::count(names.begin(), names.end(), "RootMyb2") == 0);
     D d = turbines::wt600_description();
-    d.own_blades[2] = std::nullopt;
+    d.individual_blades[2] = std::nullopt;
     check_refused([&] { (void)turbines::isolated_blade(d, undamped(2), 2); }, {"number of the blade = 2"});
     check_refused([&] { (void)turbines::isolated_blade(d, undamped(2), 4); }, {"number of the blade = 4"});
-    check_description_refused([](D& own) { own.own_blades[4] = own.blade; }, {"blade of its own = 4", "1 ... 3"});
+    check_description_refused([](D& own) { own.individual_blades[4] = own.blade; },
+                              {"blade of its own = 4", "1 ... 3"});
     CHECK(frequencies(none, 27 * rpm).size() > 5);
 }
 
@@ -238,7 +239,7 @@ TEST_CASE("machine variants: the method of a Campbell diagram follows from the m
     CHECK(method(machine([](D&) {}, 1)) == "Coleman (fixed frame)");
     CHECK(reason(machine([](D&) {}, 1)).empty());
     const solvers::Campbell unequal =
-        diagram(machine([](D& d) { (d.own_blades[3] = d.blade)->line = heavier(d.blade.line, 1.1); }, 1));
+        diagram(machine([](D& d) { (d.individual_blades[3] = d.blade)->line = heavier(d.blade.line, 1.1); }, 1));
     CHECK(unequal.method.find("Floquet") == 0);
     CHECK(unequal.method_reason == "the blades differ");
     CHECK(reason(machine([](D& d) { d.blades = 2; }, 1)) == "two blades");
@@ -339,9 +340,9 @@ TEST_CASE("machine variants: a blade or the tower alone needs nothing of the res
     CHECK_FALSE(blade.layout().platform);
     CHECK(frequencies(blade, 27 * rpm) == frequencies(same, 27 * rpm));
     one.blade = {};
-    one.own_blades[2].emplace().line = whole.blade.line;  // the others lack everything
-    one.own_blades[3] = std::nullopt;
-    one.own_blades[2]->first_flap_damping = whole.blade.first_flap_damping;
+    one.individual_blades[2].emplace().line = whole.blade.line;  // the others lack everything
+    one.individual_blades[3] = std::nullopt;
+    one.individual_blades[2]->first_flap_damping = whole.blade.first_flap_damping;
     CHECK(frequencies(turbines::isolated_blade(one, {}, 2), 0) == frequencies(same, 0));
     check_refused([&] { (void)turbines::isolated_blade(one, {}, 3); }, {"a blade", "number of the blade = 3"});
 

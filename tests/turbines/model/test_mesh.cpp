@@ -196,7 +196,7 @@ TEST_CASE("mesh: frequencies of a clamped blade are those of the cantilever", "[
 TEST_CASE("mesh: where blade 1 is missing, the others count", "[property]") {
     TurbineDescription description = machine();
     const Mesh whole = converged_mesh(description, with({.tolerance = 1e-3, .max_hz = 12}));
-    description.own_blades[1] = std::nullopt;
+    description.individual_blades[1] = std::nullopt;
     description.unusual = true;
     const Mesh without = converged_mesh(description, with({.tolerance = 1e-3, .max_hz = 12}));
     CHECK(without.blade_elements == whole.blade_elements);

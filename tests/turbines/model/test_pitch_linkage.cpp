@@ -152,7 +152,7 @@ TEST_CASE("pitch linkage: in files, and what cannot be is refused", "[property][
     light.mass = 0;
     refuse(machine(light, free_joint), {"linkage.mass"});
     TurbineDescription mixed = machine(linkage(driven_joint), free_joint);
-    mixed.own_blades[2] = mixed.blade;
-    mixed.own_blades[2]->linkage.reset();
+    mixed.individual_blades[2] = mixed.blade;
+    mixed.individual_blades[2]->linkage.reset();
     refuse(mixed, {"own_blades[2].linkage"});
 }

@@ -342,8 +342,8 @@ TEST_CASE("stations: those that a machine does not have are refused", "[property
     rigid.tower.rigid = true;
     refused(assemble(rigid, wt600_paper_assembly()), {.tower = {1}}, {"stations of tower", "rigid"});
     TurbineDescription unequal = wt600_description();
-    unequal.own_blades[2] = unequal.blade;
-    unequal.own_blades[2]->line =
+    unequal.individual_blades[2] = unequal.blade;
+    unequal.individual_blades[2]->line =
         uniform_beam(15, {.mass = 100, .GJ = 1e7, .EI_flap = 1e8, .EI_edge = 1e8, .j_flap = 1, .j_edge = 1});
     refused(assemble(unequal, wt600_paper_assembly()), {.blades = {17}}, {"stations of blade 2", "17", "0 ... 15"});
 }

@@ -195,8 +195,8 @@ TEST_CASE("openfast: blades with BeamDyn files of their own are own_blades", "[p
                   "\"other_BeamDyn.dat\"    BDBldFile(2)");
     const TurbineFile file = read_openfast(model / "small_BeamDyn.fst");
     const TurbineDescription& d = file.description;
-    REQUIRE(d.own_blades.size() == 1);
-    const BladeDescription& own = *d.own_blades.at(2);
+    REQUIRE(d.individual_blades.size() == 1);
+    const BladeDescription& own = *d.individual_blades.at(2);
     CHECK(test::difference(own.line, read_beamdyn(model / "other_BeamDyn.dat").beam.line) == 0);
     CHECK(own.damping.time_constants == std::array<double, 6>{});
     CHECK_FALSE(d.blade.damping.time_constants == std::array<double, 6>{});
@@ -207,13 +207,13 @@ TEST_CASE("openfast: blades with BeamDyn files of their own are own_blades", "[p
     // Without a pitch drive beside others with one: it is held.
     model.replace("other_BeamDyn.dat", "True   UsePitchAct", "False   UsePitchAct");
     const TurbineDescription held = read_openfast(model / "small_BeamDyn.fst").description;
-    CHECK(held.own_blades.at(2)->pitch.hold == Bearing::Hold::driven);
+    CHECK(held.individual_blades.at(2)->pitch.hold == Bearing::Hold::driven);
     CHECK_NOTHROW(held.check());
     // And the other way round.
     model.replace("small_BeamDyn.dat", "True   UsePitchAct", "False   UsePitchAct");
     model.replace("other_BeamDyn.dat", "False   UsePitchAct", "True   UsePitchAct");
     const TurbineFile rigid = read_openfast(model / "small_BeamDyn.fst");
-    CHECK(rigid.description.own_blades.at(2)->pitch.is_rigid());
+    CHECK(rigid.description.individual_blades.at(2)->pitch.is_rigid());
     CHECK(test::has_note(rigid.notes, "UsePitchAct", "rigid"));
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("openfast: the BeamDyn file of a blade that is not there is not read",
     model.replace("small_ElastoDyn.dat", " 3   NumBl", " 2   NumBl");
     model.replace("small_BeamDyn.fst", "\"small_BeamDyn.dat\"    BDBldFile(3)", "\"unused\"    BDBldFile(3)");
     const TurbineFile file = read_openfast(model / "small_BeamDyn.fst");
-    CHECK(file.description.own_blades.empty());
+    CHECK(file.description.individual_blades.empty());
     CHECK(test::has_note(file.notes, "BDBldFile(3)", "does not have"));
 }
 

@@ -168,8 +168,8 @@ TEST_CASE("elastodyn: inertia of pitch bearings and of blades about their axes i
                       text("          ", value, "   ", keyword));
     const TurbineFile file = read_openfast(model / "small_ElastoDyn.dat");
     CHECK(file.description.blade.pitch_inertia == 5200);
-    CHECK(file.description.own_blades.at(2)->pitch_inertia == 300);
-    CHECK(file.description.own_blades.at(3)->pitch_inertia == 0);
+    CHECK(file.description.individual_blades.at(2)->pitch_inertia == 300);
+    CHECK(file.description.individual_blades.at(3)->pitch_inertia == 0);
     // As an armature of the pitch coordinate, where there is one.
     TurbineDescription d = file.description;
     d.tower.rigid = true;
@@ -178,7 +178,7 @@ TEST_CASE("elastodyn: inertia of pitch bearings and of blades about their axes i
     const auto armatures = [&] { return assemble(d, options).tree().armatures().size(); };
     const std::size_t rigid = armatures();
     d.blade.pitch = driven_joint;
-    for (auto& [number, blade] : d.own_blades) blade->pitch = driven_joint;
+    for (auto& [number, blade] : d.individual_blades) blade->pitch = driven_joint;
     CHECK(armatures() == rigid + 2);
     // BeamDyn's sections have inertia about their axis, and its pitch drive may have its own.
     CHECK(read_openfast(model / "small_BeamDyn.fst").description.blade.pitch_inertia == 20);
@@ -201,8 +201,8 @@ TEST_CASE("elastodyn: everything that is not in the description is noted, with f
     const TurbineFile file = read_openfast(model / "small_ElastoDyn.dat");
     const auto noted = [&](const char* keyword, const char* why) { return test::has_note(file.notes, keyword, why); };
     CHECK(noted("NacYaw", "into the wind"));
-    CHECK(file.description.own_blades.at(3)->cone == Approx(-2.5 * degree).epsilon(1e-15));
-    CHECK(file.description.own_blades.at(2)->tip_mass == 12);
+    CHECK(file.description.individual_blades.at(3)->cone == Approx(-2.5 * degree).epsilon(1e-15));
+    CHECK(file.description.individual_blades.at(2)->tip_mass == 12);
     CHECK(file.description.blade.tip_mass == 0);
     CHECK(noted("PtfmMass", "platform"));
     CHECK(noted("GBoxEff", "losses"));
@@ -250,8 +250,8 @@ TEST_CASE("elastodyn: degrees of freedom switched off in the file are taken from
     CHECK(dofs_of(fore_aft.description).tower_side_side);
     CHECK(!test::has_note(fore_aft.notes, "TwFADOF", ""));
     CHECK(!fore_aft.description.tower.rigid);
-    CHECK(fore_aft.description.tower.held_fore_aft);
-    CHECK(!fore_aft.description.tower.held_side_side);
+    CHECK(fore_aft.description.tower.locked_fore_aft);
+    CHECK(!fore_aft.description.tower.locked_side_side);
     const TurbineFile stiff = changed({"TwFADOF1", "TwFADOF2", "TwSSDOF1"});
     CHECK(stiff.description.tower.rigid);
     AssemblyOptions options;
@@ -306,21 +306,21 @@ TEST_CASE("beams that are held in bending: the machine moves as with an infinite
     };
     const auto compare = [&](const TurbineDescription& stiffened) {
         AssemblyOptions free = options;
-        for (auto* b : {&*free.tower_beam, &*free.blade_beam}) b->held_y = b->held_z = false;
+        for (auto* b : {&*free.tower_beam, &*free.blade_beam}) b->locked_y = b->locked_z = false;
         const std::vector<double> held = frequencies(assemble(file.description, options)),
                                   expected = frequencies(assemble(stiffened, free));
         REQUIRE(held.size() >= 4);
         for (std::size_t i = 0; i < 4; ++i) CHECK(held[i] == Approx(expected.at(i)).epsilon(5e-4));
     };
     TurbineDescription d = file.description;
-    options.tower_beam->held_z = true;  // fore-aft
+    options.tower_beam->locked_z = true;  // fore-aft
     d.tower.line = stiff(file.description.tower.line, false, true);
     compare(d);
-    options.tower_beam->held_y = true;
+    options.tower_beam->locked_y = true;
     d.tower.line = stiff(file.description.tower.line, true, true);
     compare(d);
-    options.tower_beam->held_y = options.tower_beam->held_z = false;
-    options.blade_beam->held_y = options.blade_beam->held_z = true;
+    options.tower_beam->locked_y = options.tower_beam->locked_z = false;
+    options.blade_beam->locked_y = options.blade_beam->locked_z = true;
     d = file.description;
     d.blade.line = stiff(file.description.blade.line, true, true);
     compare(d);

@@ -122,10 +122,10 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
     }
     SECTION("blades of their own, a missing one, bearings of every kind") {
         TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
-        d.own_blades[2] = d.blade;
-        d.own_blades[2]->pitch_setting = 1.0 / 7;
-        d.own_blades[2]->pitch = d.blade.pitch = driven_joint;
-        d.own_blades[3] = std::nullopt;
+        d.individual_blades[2] = d.blade;
+        d.individual_blades[2]->pitch_setting = 1.0 / 7;
+        d.individual_blades[2]->pitch = d.blade.pitch = driven_joint;
+        d.individual_blades[3] = std::nullopt;
         d.yaw.translation = {1e8, 1.0 / 3};
         d.unusual = true;
         check_round_trip(d);

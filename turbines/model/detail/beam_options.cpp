@@ -41,8 +41,8 @@ void check_elements(const AssemblyOptions& options) {
 CardanBeamOptions tower_beam_options(const TowerDescription& tower, const AssemblyOptions& options) {
     CardanBeamOptions beam =
         options.tower_beam ? *options.tower_beam : elements_of(options, options.tower_elements, tower.line, false);
-    beam.held_y |= tower.held_side_side;
-    beam.held_z |= tower.held_fore_aft;
+    beam.locked_y |= tower.locked_side_side;
+    beam.locked_z |= tower.locked_fore_aft;
     return beam;
 }
 

@@ -121,8 +121,8 @@ void description_fields(Archive& archive, Description& d) {
         archive.damping("damping", d.tower.damping);
         archive.since(2, [&] {
             archive.optional_flag("rigid", d.tower.rigid);
-            archive.optional_flag("held_fore_aft", d.tower.held_fore_aft);
-            archive.optional_flag("held_side_side", d.tower.held_side_side);
+            archive.optional_flag("held_fore_aft", d.tower.locked_fore_aft);
+            archive.optional_flag("held_side_side", d.tower.locked_side_side);
         });
     });
     archive.group("yaw", [&] {
@@ -157,7 +157,8 @@ void description_fields(Archive& archive, Description& d) {
         });
     });
     archive.group("blade", [&] { blade_fields(archive, d.blade); });
-    archive.numbered_groups("own_blades", d.own_blades, d.blades, [&](auto& blade) { blade_fields(archive, blade); });
+    archive.numbered_groups("own_blades", d.individual_blades, d.blades,
+                            [&](auto& blade) { blade_fields(archive, blade); });
     archive.since(2, [&] {
         archive.optional_group("platform", d.platform, [&](auto& platform) { platform_fields(archive, platform); });
         archive.group_if(!d.missing_foundation.name.empty(), "missing_foundation", [&] {

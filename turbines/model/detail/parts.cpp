@@ -59,7 +59,7 @@ TurbineDescription completed(TurbineDescription d) {
                              &d.drive_train.high_speed_shaft, &d.drive_train.main_shaft, &d.blade.pitch})
         complete(*bearing);
     if (d.hub.teeter) complete(d.hub.teeter->bearing);
-    for (auto& [number, blade] : d.own_blades)
+    for (auto& [number, blade] : d.individual_blades)
         if (blade) complete(blade->pitch);
     d.platform.reset();
     return d;
@@ -70,7 +70,7 @@ namespace {
 void make_rigid(TurbineDescription& d, AssemblyOptions& options) {
     d.tower.rigid = true;
     d.blade.rigid = true;
-    for (auto& [number, blade] : d.own_blades)
+    for (auto& [number, blade] : d.individual_blades)
         if (blade) blade->rigid = true;
     options.blade_beam.reset();
     options.blade_elements = 1;

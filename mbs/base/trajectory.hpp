@@ -1,5 +1,5 @@
 /// @file
-/// The travel of a drive from its present state to rest at a target.
+/// The trajectory of a drive from its present state to rest at a target.
 #pragma once
 
 #include <array>
@@ -9,34 +9,34 @@
 namespace cardan {
 
 /// Limits of a drive's motion; rad or m, and per s, s^2, s^3.
-struct TravelLimits {
+struct TrajectoryLimits {
     double rate = 0, acceleration = 0;
     double jerk = 0;  ///< 0: default_jerk()
 };
 
 /// 2 acceleration^2 / rate: with this jerk the largest rate is reached from rest within 3/2 rate / acceleration.
-double default_jerk(const TravelLimits& limits);
+double default_jerk(const TrajectoryLimits& limits);
 
 /// The fastest motion within the limits: accelerates as hard as they allow to the largest rate, travels at that rate,
 /// and brakes as hard as they allow to rest at the target. Position, rate and acceleration are continuous; the jerk is
-/// piecewise constant. Restarted from any state along the way, to the same target within the same limits, the travel is
-/// the remainder of this one.
-class Travel {
+/// piecewise constant. Restarted from any state along the way, to the same target within the same limits, the
+/// trajectory is the remainder of this one.
+class Trajectory {
 public:
     struct State {
         double position = 0, rate = 0, acceleration = 0;
     };
 
     /// Stands at rest at a position. @throws InputError if it is not finite
-    explicit Travel(double position);
+    explicit Trajectory(double position);
     /// Moves from a state at a time to rest at `to`. If the initial rate leads away from the target or past it, the
-    /// travel reverses; a rate or acceleration that exceeds its limit at the start is first brought back within it.
+    /// trajectory reverses; a rate or acceleration that exceeds its limit at the start is first brought back within it.
     /// @throws InputError for values that are not finite, limits that are not positive, or numbers so large or small
-    ///         that the travel would never arrive
-    Travel(double time, const State& from, double to, const TravelLimits& limits);
+    ///         that the trajectory would never arrive
+    Trajectory(double time, const State& from, double to, const TrajectoryLimits& limits);
     /// Moves at a constant rate, arriving after `duration`; the rate jumps at both ends.
     /// @throws InputError for values that are not finite, a duration that is not positive
-    static Travel straight(double time, double from, double to, double duration);
+    static Trajectory straight(double time, double from, double to, double duration);
 
     State at(double time) const { return at(time, time); }
     /// State at `time`, extrapolated from the phase that is active at the time `inside`.

@@ -1,4 +1,4 @@
-#include "mbs/base/travel.hpp"
+#include "mbs/base/trajectory.hpp"
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
@@ -10,13 +10,13 @@ namespace cardan {
 
 namespace {
 
-constexpr const char* in_travel = "travel of a drive";
+constexpr const char* in_travel = "trajectory of a drive";
 
 void require_finite(const char* quantity, double value) {
     if (!std::isfinite(value)) throw InputError(in_travel, quantity, value, "finite");
 }
 
-double require_jerk(const TravelLimits& limits) {
+double require_jerk(const TrajectoryLimits& limits) {
     require_positive(in_travel, "largest rate", limits.rate);
     require_positive(in_travel, "largest acceleration", limits.acceleration);
     require_not_negative(in_travel, "largest jerk", limits.jerk);
@@ -46,18 +46,18 @@ struct RateChange {
 
 }  // namespace
 
-double default_jerk(const TravelLimits& limits) {
+double default_jerk(const TrajectoryLimits& limits) {
     return 2 * limits.acceleration * (limits.acceleration / limits.rate);
 }
 
-Travel::State Travel::Phase::at(double time) const {
+Trajectory::State Trajectory::Phase::at(double time) const {
     const double t = time - start;
     return {from.position + t * (from.rate + t * (from.acceleration / 2 + t * jerk / 6)),
             from.rate + t * (from.acceleration + t * jerk / 2), from.acceleration + t * jerk};
 }
 
 // A sequence of phases.
-class Travel::Way {
+class Trajectory::Way {
 public:
     Way(double time, const State& from) : time_(time), now_(from) {}
 
@@ -86,12 +86,12 @@ public:
         return add(RateChange(now_.rate, now_.acceleration, 0, limit, jerk), std::numeric_limits<double>::infinity());
     }
     double position() const { return now_.position; }
-    void store(Travel& travel) const {
+    void store(Trajectory& trajectory) const {
         if (!std::isfinite(time_) || !std::isfinite(now_.position))
             throw InputError(in_travel, "time of arrival [s]", time_, "finite: look at the limits and at the start");
-        travel.phases_ = phases_;
-        travel.count_ = count_;
-        travel.arrival_ = time_;
+        trajectory.phases_ = phases_;
+        trajectory.count_ = count_;
+        trajectory.arrival_ = time_;
     }
 
 private:
@@ -101,12 +101,13 @@ private:
     std::array<Phase, 7> phases_{};
 };
 
-Travel::Travel(double position) : target_(position) {
+Trajectory::Trajectory(double position) : target_(position) {
     require_finite("position", position);
 }
 
 // Unknown: how long it accelerates toward the largest rate before stopping. Where it stops increases with that.
-Travel::Travel(double time, const State& from, double to, const TravelLimits& limits) : target_(to), start_(time) {
+Trajectory::Trajectory(double time, const State& from, double to, const TrajectoryLimits& limits)
+    : target_(to), start_(time) {
     require_finite("time [s]", time);
     require_finite("position at the start", from.position);
     require_finite("rate at the start", from.rate);
@@ -130,18 +131,18 @@ Travel::Travel(double time, const State& from, double to, const TravelLimits& li
     after(shortest).stop(max, jerk).store(*this);
 }
 
-Travel Travel::straight(double time, double from, double to, double duration) {
+Trajectory Trajectory::straight(double time, double from, double to, double duration) {
     require_finite("time [s]", time);
     require_finite("position at the start", from);
     require_finite("target", to);
     require_positive(in_travel, "duration [s]", duration);
-    Travel travel(to);
-    travel.start_ = time;
-    Way(time, {from, (to - from) / duration, 0}).add(duration, 0).store(travel);
-    return travel;
+    Trajectory trajectory(to);
+    trajectory.start_ = time;
+    Way(time, {from, (to - from) / duration, 0}).add(duration, 0).store(trajectory);
+    return trajectory;
 }
 
-Travel::State Travel::at(double time, double inside) const {
+Trajectory::State Trajectory::at(double time, double inside) const {
     // Before the start, extrapolates the initial state.
     if (inside < start_) {
         const Phase& first = phases_[0];
@@ -152,7 +153,7 @@ Travel::State Travel::at(double time, double inside) const {
     return {target_, 0, 0};
 }
 
-std::vector<double> Travel::breaks() const {
+std::vector<double> Trajectory::breaks() const {
     std::vector<double> times;
     if (!std::isfinite(start_)) return times;
     times.push_back(start_);

@@ -10,14 +10,14 @@ using namespace cardan;
 using namespace cardan::solvers;
 using namespace cardan::testing;
 
-TEST_CASE("motion: a travel is the motion it describes", "[solvers][motion][property]") {
-    const Travel travel(1, {0.2, -0.1, 0}, 1.4, {0.5, 0.8});
-    const Motion motion = Motion::travel(travel);
-    CHECK(motion.kind() == "travel");
-    CHECK(motion.breaks() == travel.breaks());
+TEST_CASE("motion: a trajectory is the motion it describes", "[solvers][motion][property]") {
+    const Trajectory trajectory(1, {0.2, -0.1, 0}, 1.4, {0.5, 0.8});
+    const Motion motion = Motion::trajectory(trajectory);
+    CHECK(motion.kind() == "trajectory");
+    CHECK(motion.breaks() == trajectory.breaks());
     for (double t : {0.5, 1.1, 2.0, 3.3, 9.0}) {
         const MotionState m = motion.at(t, t);
-        const Travel::State s = travel.at(t);
+        const Trajectory::State s = trajectory.at(t);
         CHECK(m.position == s.position);
         CHECK(m.velocity == s.rate);
         CHECK(m.acceleration == s.acceleration);
@@ -37,21 +37,21 @@ TEST_CASE("motion: an event gives a driven arm a new command in mid-travel; its 
     forces.set_gravity({0, 0, -units::standard_gravity});
     const System system(tree, forces);
     const int i = system.model.index(wheel.body), pendulum = 1 - i;
-    const TravelLimits limits{0.5, 0.8};
+    const TrajectoryLimits limits{0.5, 0.8};
     IntegrationOptions options;
     Event command{.name = "new command", .direction = 1};
     command.function = [](const StateView& in) { return in.time - 1.3; };
     command.action = [&](Integrator& integrator) {
         const DynamicState& now = integrator.state();
-        const Travel back(now.time, {now.q(i), now.qd(i), 0}, -0.5, limits);
-        integrator.set_motion(i, Motion::travel(back));
+        const Trajectory back(now.time, {now.q(i), now.qd(i), 0}, -0.5, limits);
+        integrator.set_motion(i, Motion::trajectory(back));
         return AfterEvent::restart;
     };
     options.events = {command};
     Vector q = Vector::Zero(2);
     q(pendulum) = 0.1;
-    const Travel forth(0, {0, 0, 0}, 2, limits);
-    Integrator integrator(system, {{i, Motion::travel(forth)}}, 0, q, Vector::Zero(2), options);
+    const Trajectory forth(0, {0, 0, 0}, 2, limits);
+    Integrator integrator(system, {{i, Motion::trajectory(forth)}}, 0, q, Vector::Zero(2), options);
     REQUIRE(integrator.advance(1).reached());
     const double rate = forth.at(1).rate;
     CHECK(integrator.state().qd(i) == rate);
