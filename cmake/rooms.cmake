@@ -24,15 +24,18 @@ room(solvers/algebra SEES mbs/base USES sundials fft) # eigenvalues, Schur forms
 room(solvers/linear SEES solvers/algebra mbs/system) # operating point, linearisation, modes, Coleman transformation
 room(solvers/equilibrium SEES solvers/linear USES sundials) # steady states, load paths, buckling
 room(solvers/periodic SEES solvers/equilibrium) # harmonic balance, shooting, Floquet, forced response
-room(solvers/campbell SEES solvers/periodic USES boost) # Campbell diagrams: points, names, tracking, tables
+room(solvers/campbell_data SEES solvers/periodic) # Campbell diagrams as data: modes, branches; tables, CSV, differences
+room(solvers/mode_names SEES solvers/campbell_data) # energy shares, tracking, names of branches
+room(solvers/campbell SEES solvers/mode_names) # Campbell diagrams: modes at a point by each method, sweeps
+room(solvers/stability SEES solvers/campbell USES boost) # where flutter and divergence begin over a parameter
 room(solvers/control SEES solvers/periodic) # linear models for the design of controllers
 room(solvers/signals SEES solvers/algebra mbs/system) # histories, sampling, spectra, envelopes
 room(solvers/time SEES solvers/signals USES sundials) # time integration
 room(solvers/atlas SEES solvers/time mbs/geometry) # time integration in several charts
-room(solvers/hdf5 SEES solvers/campbell solvers/time USES hdf5) # diagrams and histories as files
+room(solvers/hdf5 SEES solvers/campbell_data solvers/time USES hdf5) # diagrams and histories as files
 room(solvers/hdf5_models SEES solvers/hdf5 solvers/control) # linear models as HDF5 files
 room(solvers/matlab SEES solvers/control USES matio) # linear models as MATLAB files
-room(solvers/pictures SEES solvers/campbell solvers/signals) # through gnuplot
+room(solvers/pictures SEES solvers/campbell_data solvers/signals) # through gnuplot
 
 room(turbines/model SEES elements/cardan_beam) # description of a turbine, its mesh, assembly to a system, channels
 room(turbines/tables SEES mbs/base) # CSV; the tables of the machines, within the library
@@ -46,10 +49,10 @@ room(turbines/operation SEES turbines/aerodynamics solvers/campbell USES boost) 
 room(turbines/machine SEES turbines/yaml turbines/machines turbines/operation solvers/hdf5) # a machine with all that belongs to it, from whatever source
 room(turbines/analysis SEES turbines/machine turbines/control solvers/control) # simulation, Campbell diagram, linear model of a machine
 
-room(programs/shared SEES turbines/analysis turbines/electric solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
+room(programs/shared SEES turbines/analysis turbines/electric solvers/stability solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
 room(programs/cardan SEES programs/shared) # the commands of `cardan`
 room(programs SEES programs/cardan)
-room(examples SEES turbines/analysis turbines/electric solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf solvers/atlas) # short scripts
+room(examples SEES turbines/analysis turbines/electric solvers/stability solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf solvers/atlas) # short scripts
 room(examples/studies SEES examples programs/shared) # of papers and methods
 
 # Headers of libraries that only some rooms may include: library(<name> <what they begin with>...)

@@ -1,6 +1,6 @@
 // Flutter of the wing of M. Goland, J. Appl. Mech. 12 (1945) A197, in strip theory with R. T. Jones' lags.
 #include <cardan/mbs/base/error.hpp>
-#include <cardan/solvers/campbell/stability_limits.hpp>
+#include <cardan/solvers/stability/stability_limits.hpp>
 #include <cardan/turbines/aerodynamics/machine_air.hpp>
 
 #include <iostream>

@@ -7,7 +7,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/campbell_program.hpp"
-#include "solvers/campbell/difference.hpp"
+#include "solvers/campbell_data/difference.hpp"
 #include "turbines/machines/wt600_operation.hpp"
 #include "turbines/model/generator_slip.hpp"
 

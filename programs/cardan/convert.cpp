@@ -6,7 +6,7 @@
 #include "programs/cardan/commands.hpp"
 #include "programs/shared/machine_file.hpp"
 #include "programs/shared/program.hpp"
-#include "solvers/campbell/csv.hpp"
+#include "solvers/campbell_data/csv.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "turbines/machine/machine_text.hpp"
 

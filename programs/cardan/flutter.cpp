@@ -13,7 +13,7 @@
 #include "programs/cardan/commands.hpp"
 #include "programs/cardan/options.hpp"
 #include "programs/shared/campbell_program.hpp"
-#include "solvers/campbell/stability_limits.hpp"
+#include "solvers/stability/stability_limits.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/machine/machine_text.hpp"
 

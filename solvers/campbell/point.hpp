@@ -5,6 +5,7 @@
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/campbell/mode_range.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
+#include "solvers/mode_names/energy_shares.hpp"
 
 #include <memory>
 #include <optional>

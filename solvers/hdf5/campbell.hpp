@@ -2,7 +2,7 @@
 /// Campbell diagrams as HDF5 files; the layout is described in docs/file_formats.md.
 #pragma once
 
-#include "solvers/campbell/diagram.hpp"
+#include "solvers/campbell_data/diagram.hpp"
 
 #include <filesystem>
 

@@ -2,7 +2,7 @@
 /// Pictures of the mode shapes of a blade, through gnuplot.
 #pragma once
 
-#include "solvers/campbell/blade_shapes.hpp"
+#include "solvers/campbell_data/blade_shapes.hpp"
 
 #include <filesystem>
 

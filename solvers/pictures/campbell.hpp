@@ -2,7 +2,7 @@
 /// Pictures of Campbell diagrams and mode shapes, through gnuplot.
 #pragma once
 
-#include "solvers/campbell/diagram.hpp"
+#include "solvers/campbell_data/diagram.hpp"
 #include "solvers/pictures/gnuplot.hpp"
 
 #include <filesystem>

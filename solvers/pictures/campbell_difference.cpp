@@ -1,5 +1,5 @@
 #include "mbs/base/error.hpp"
-#include "solvers/campbell/difference.hpp"
+#include "solvers/campbell_data/difference.hpp"
 #include "solvers/pictures/campbell.hpp"
 #include "solvers/pictures/detail/campbell_style.hpp"
 

@@ -2,7 +2,7 @@
 /// Root loci: eigenvalues of a Campbell diagram in the complex plane.
 #pragma once
 
-#include "solvers/campbell/diagram.hpp"
+#include "solvers/campbell_data/diagram.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 // Two simulations under a controller, a Campbell diagram and a table of numbers, each in a thread of its own that
 // writes a file of its own: the files hold the same as those of one after the other. Under the thread sanitizer (preset
 // `thread`) it also shows that they share nothing that changes.
-#include "solvers/campbell/csv.hpp"
+#include "solvers/campbell_data/csv.hpp"
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "tests/support/files.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "examples/studies/nrel5mw_campbell/assumed_shapes.hpp"
-#include "solvers/campbell/mode_names.hpp"
+#include "solvers/mode_names/community_names.hpp"
 
 #include <array>
 #include <optional>

@@ -3,8 +3,8 @@
 #include "programs/shared/named_values.hpp"
 #include "programs/shared/simulation.hpp"
 #include "solvers/campbell/diagram.hpp"
-#include "solvers/campbell/mode_names.hpp"
 #include "solvers/linear/linearise.hpp"
+#include "solvers/mode_names/community_names.hpp"
 #include "turbines/model/channels.hpp"
 
 namespace cardan::floating {

@@ -1,9 +1,9 @@
 #include "solvers/campbell/detail/method.hpp"
 
 #include "mbs/base/error.hpp"
-#include "solvers/campbell/detail/blade_likeness.hpp"
 #include "solvers/campbell/point.hpp"
 #include "solvers/equilibrium/detail/closed_start.hpp"
+#include "solvers/mode_names/detail/blade_likeness.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,9 +4,9 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/detail/blade_frame.hpp"
-#include "solvers/campbell/detail/component_order.hpp"
 #include "solvers/campbell/detail/recorded_motions.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
+#include "solvers/mode_names/detail/component_order.hpp"
 
 #include <algorithm>
 #include <cmath>

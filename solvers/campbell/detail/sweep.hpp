@@ -2,9 +2,9 @@
 /// A Campbell diagram that grows point by point. Internal: not for users of the library.
 #pragma once
 
-#include "solvers/campbell/detail/floquet_mac.hpp"
-#include "solvers/campbell/detail/tracking.hpp"
 #include "solvers/campbell/point.hpp"
+#include "solvers/mode_names/detail/floquet_mac.hpp"
+#include "solvers/mode_names/detail/tracking.hpp"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 /// Style shared by pictures of Campbell diagrams and of their differences. Internal.
 #pragma once
 
-#include "solvers/campbell/diagram.hpp"
+#include "solvers/campbell_data/diagram.hpp"
 
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/base/version.hpp"
-#include "solvers/campbell/csv.hpp"
+#include "solvers/campbell_data/csv.hpp"
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/hdf5/file.hpp"
 #include "solvers/pictures/campbell.hpp"

@@ -3,7 +3,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
-#include "solvers/campbell/csv.hpp"
+#include "solvers/campbell_data/csv.hpp"
 #include "solvers/control/multi_blade_model.hpp"
 #include "solvers/control/state_space.hpp"
 #include "solvers/periodic/azimuth_average.hpp"

@@ -1,6 +1,6 @@
 // Files as others read them: ncdump, netCDF4, h5netcdf, and xarray by netCDF4 and by h5netcdf.
 #include "mbs/base/error.hpp"
-#include "solvers/campbell/csv.hpp"
+#include "solvers/campbell_data/csv.hpp"
 #include "solvers/control/multi_blade_model.hpp"
 #include "solvers/control/state_space.hpp"
 #include "solvers/hdf5/axis.hpp"

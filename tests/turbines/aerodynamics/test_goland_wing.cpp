@@ -1,8 +1,8 @@
 // Flutter and divergence of the wing of M. Goland, J. Appl. Mech. 12 (1945) A197: a uniform cantilever in strip theory,
 // here the blade of a parked machine with one blade, feathered into the wind.
 #include "mbs/base/entry.hpp"
-#include "solvers/campbell/stability_limits.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
+#include "solvers/stability/stability_limits.hpp"
 #include "tests/oracles/strip_flutter.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"

@@ -3,7 +3,7 @@
 // Reference: the solvers called by hand for the same machine; modes of the linear model beside those of the diagram,
 // which a second algorithm finds.
 #include "mbs/base/units.hpp"
-#include "solvers/campbell/csv.hpp"
+#include "solvers/campbell_data/csv.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "turbines/analysis/campbell.hpp"

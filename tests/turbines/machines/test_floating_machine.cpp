@@ -3,7 +3,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
-#include "solvers/campbell/mode_names.hpp"
+#include "solvers/mode_names/community_names.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"

@@ -1,7 +1,7 @@
 // Modes of the NREL 5 MW blade: names by content, shapes over the radius, their table and picture.
 #include "mbs/base/error.hpp"
 #include "mbs/model/spatial.hpp"
-#include "solvers/campbell/blade_shapes.hpp"
+#include "solvers/campbell_data/blade_shapes.hpp"
 #include "solvers/pictures/blade_shapes.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
