@@ -7,7 +7,6 @@
 #include "solvers/campbell/point.hpp"
 
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -43,27 +42,25 @@ Campbell one_by_one(const NextCampbellCase& next, std::size_t count, const std::
         throw InputError("Campbell diagram", text("neighbour of a diagram over ", name), "given",
                          "none: modes are followed from one machine to the next");
     Sweep sweep(options, why, count, parameter);
-    std::vector<std::unique_ptr<PointMethod>> solvers;
-    std::vector<const PointMethod*> used;
+    Sweep::Solvers solvers;
     std::vector<double> parameters;
     std::optional<CampbellCase> first, last;
     while (std::optional<CampbellCase> one = next()) {
         check_next(last ? &*last : nullptr, *one, name);
         if (!first) first = one;
         last = one;
-        solvers.push_back(point_method(*one->system, *one->rotor, options));
+        solvers.push_back(point_solver(*one->system, *one->rotor, options));
         if (parameters.empty()) sweep.set_machine(*one->system, *one->rotor, *solvers.back());
         if (solvers.back()->row_names() != solvers.front()->row_names())
             throw InputError(one->rotor->machine, text("rows at ", name, " ", one->parameter),
                              solvers.back()->unknowns().size(), "those of the first machine");
-        used.push_back(solvers.back().get());
         solvers.back()->start_from(one->start, one->state_start);
         if (!sweep.add(*one->system, *solvers.back(), one->rotor_speed, one->parameter)) break;
         parameters.push_back(one->parameter);
     }
     Campbell diagram;
     diagram.complete = false;
-    if (first) diagram = sweep.finish(*first->rotor, used);
+    if (first) diagram = sweep.finish(*first->rotor, solvers);
     diagram.parameter = parameter;
     if (!parameter.empty()) diagram.parameters = std::move(parameters);
     return diagram;
@@ -91,14 +88,15 @@ Campbell campbell(const System& system, const RotorMap& rotor, std::span<const d
     CampbellOptions own = options;
     own.method = choice.method;
     Sweep sweep(own, choice.reason, rotor_speed.size());
-    const std::unique_ptr<PointMethod> solver = point_method(system, rotor, own);
-    sweep.set_machine(system, rotor, *solver);
+    Sweep::Solvers solvers;
+    PointSolver& solver = *solvers.emplace_back(point_solver(system, rotor, own));
+    sweep.set_machine(system, rotor, solver);
     // So many steady states take seconds; more would keep a diagram that is interrupted from having anything.
     constexpr std::size_t soon = 50;
-    if (rotor_speed.size() <= soon) solver->prepare(rotor_speed);
+    if (rotor_speed.size() <= soon) solver.prepare(rotor_speed);
     for (const double speed : rotor_speed)
-        if (!sweep.add(system, *solver, speed)) break;
-    return sweep.finish(rotor, {solver.get()});
+        if (!sweep.add(system, solver, speed)) break;
+    return sweep.finish(rotor, solvers);
 }
 
 Campbell campbell(std::span<const CampbellCase> cases, const std::string& parameter, const CampbellOptions& options) {

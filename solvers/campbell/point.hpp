@@ -12,44 +12,6 @@
 
 namespace cardan::solvers {
 
-/// Interface of the methods that compute modes at one rotor speed after another.
-class PointMethod {
-public:
-    PointMethod() = default;
-    PointMethod(const PointMethod&) = delete;
-    PointMethod& operator=(const PointMethod&) = delete;
-    virtual ~PointMethod() = default;
-
-    /// Of the next point: CampbellCase::start and state_start. Empty ones change nothing.
-    virtual void start_from(const Matrix& coordinates, const Matrix& states) = 0;
-    /// All points that will be solved, in this order: what is cheap and may fail is done before anything else.
-    /// @throws as solve()
-    virtual void prepare(std::span<const double> /*rotor_speeds*/) {}
-    /// @param rotor_speed  rad/s
-    /// @param point  overwritten
-    virtual void solve(double rotor_speed, CampbellPoint& point) = 0;
-    /// Model index of every row of the modes' shapes.
-    virtual const std::vector<int>& unknowns() const = 0;
-    /// Names of the rows; blade coordinates are named after blade 1, with the pattern that the row stands for.
-    virtual std::vector<std::string> row_names() const = 0;
-    /// Names of the states of first order, likewise.
-    virtual std::vector<std::string> state_names() const { return {}; }
-    /// The (transformed) system of the last point, averaged over the azimuth.
-    virtual const SecondOrderSystem& system() const = 0;
-    /// Made at the first point; null before.
-    virtual const EnergyShares* energy_shares() const = 0;
-    /// Blade coordinates at azimuth 0 from the rows of a mode's shape.
-    virtual Matrix rotating_coordinates() const = 0;
-    /// With loops, how all coordinates of the model move with the unknowns in blade coordinates; empty without.
-    virtual Matrix followers(const DynamicState& /*at*/) const { return {}; }
-    /// Null without multi-blade rows.
-    virtual const ColemanTransform* coleman() const = 0;
-    /// A warning about the results so far; usually empty.
-    virtual const std::string& warning() const = 0;
-    /// Which modes the next point has, where the equations are constant.
-    virtual ModeRange& mode_range() = 0;
-};
-
 /// PointSolver::periodic_remainder() that counts as none: rounding.
 inline constexpr double negligible_remainder = 1e-9;
 
@@ -64,31 +26,53 @@ StateMotion state_motion(Mode mode, const Vector& scales);
 
 /// Steady state, linearisation, Coleman transformation, modes and their energy shares at one rotor speed after another.
 /// Its memory, some twenty matrices over the coordinates, is allocated with the first point. Keeps references to system
-/// and machine; one per thread.
-class PointSolver : public PointMethod {
+/// and machine; one per thread. What Floquet's theory and the mean over the azimuth do differently where the rotor
+/// turns is virtual: point_solver() makes the one for the method.
+class PointSolver {
 public:
     /// @throws InputError for a rotor of two blades, or without multi-blade coordinates, unless the method is Floquet's
     /// (then standstill only)
     PointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options = {});
     PointSolver(System&&, const RotorMap&, const CampbellOptions& = {}) = delete;  // the system must live longer
     PointSolver(const System&, RotorMap&&, const CampbellOptions& = {}) = delete;  // likewise the map
+    PointSolver(const PointSolver&) = delete;
+    PointSolver& operator=(const PointSolver&) = delete;
+    virtual ~PointSolver() = default;
 
-    void start_from(const Matrix& coordinates, const Matrix& states) override;
+    /// Of the next point: CampbellCase::start and state_start. Empty ones change nothing.
+    virtual void start_from(const Matrix& coordinates, const Matrix& states);
+    /// All points that will be solved, in this order: what is cheap and may fail is done before anything else.
+    /// @throws as solve()
+    virtual void prepare(std::span<const double> /*rotor_speeds*/) {}
     /// The steady-state iteration starts from the previous point. From the second call on with the same `point` nothing
     /// is allocated, but for the shares of blades that differ at standstill and where few of many modes are wanted
     /// (ModeSolver).
+    /// @param rotor_speed  rad/s
+    /// @param point  overwritten
     /// @throws NumericalError where no constant steady state exists or is found, and as ModeSolver; the solver can be
     /// used again
-    void solve(double rotor_speed, CampbellPoint& point) override;
+    virtual void solve(double rotor_speed, CampbellPoint& point);
 
-    const std::vector<int>& unknowns() const override { return unknowns_; }
-    std::vector<std::string> row_names() const override;
-    std::vector<std::string> state_names() const override;
-    const SecondOrderSystem& system() const override { return current_; }
-    const EnergyShares* energy_shares() const override { return energy_shares_ ? &*energy_shares_ : nullptr; }
-    Matrix rotating_coordinates() const override;
-    const std::string& warning() const override { return warning_; }
-    Matrix followers(const DynamicState& at) const override;
+    /// Model index of every row of the modes' shapes.
+    const std::vector<int>& unknowns() const { return unknowns_; }
+    /// Names of the rows; blade coordinates are named after blade 1, with the pattern that the row stands for.
+    std::vector<std::string> row_names() const;
+    /// Names of the states of first order, likewise.
+    std::vector<std::string> state_names() const;
+    /// The (transformed) system of the last point, averaged over the azimuth.
+    const SecondOrderSystem& system() const { return current_; }
+    /// Made at the first point; null before.
+    const EnergyShares* energy_shares() const { return energy_shares_ ? &*energy_shares_ : nullptr; }
+    /// Blade coordinates at azimuth 0 from the rows of a mode's shape.
+    Matrix rotating_coordinates() const;
+    /// With loops, how all coordinates of the model move with the unknowns in blade coordinates; empty without.
+    Matrix followers(const DynamicState& at) const;
+    /// Null without multi-blade rows.
+    const ColemanTransform* coleman() const { return coleman_ ? &*coleman_ : nullptr; }
+    /// A warning about the results so far; usually empty.
+    const std::string& warning() const { return warning_; }
+    /// Which modes the next point has, where the equations are constant.
+    ModeRange& mode_range() { return range_; }
 
     /// Coordinates that may move: the unknowns, and with loops those that follow them.
     const std::vector<int>& moving() const { return moving_.empty() ? unknowns_ : moving_; }
@@ -97,7 +81,6 @@ public:
     /// Largest part of the (multi-blade) matrices that changes with the azimuth, relative to them. Steady state as in
     /// solve().
     double periodic_remainder(double rotor_speed);
-    const ColemanTransform* coleman() const override { return coleman_ ? &*coleman_ : nullptr; }
     /// Of each blade, x^H K_elastic x of its own coordinates; allocates.
     /// @param shape  in blade coordinates, by unknown
     Vector blade_energies(const Linearisation& lin, const ComplexVector& shape) const;
@@ -106,7 +89,15 @@ public:
     bool blades_stand_out() const;
     /// Defines the components from this linearisation instead of that of the first point; call before the first point.
     void define_components(const Linearisation& lin);
-    ModeRange& mode_range() override { return range_; }
+
+protected:
+    void warn(const std::string& what);
+
+    const System& system_;
+    const RotorMap& rotor_;
+    CampbellOptions options_;
+    ModeRange range_;
+    SecondOrderSystem current_;  ///< of the last point
 
 private:
     const std::vector<MultiBladeRow>& rows() const { return coleman_ ? coleman_->rows() : plain_rows_; }
@@ -123,14 +114,9 @@ private:
     void take_mean(double rotor_speed, double remainder);
     // Checked before the text of a warning is built: later points allocate nothing.
     bool warned_of(std::string_view what) const;
-    void warn(const std::string& what);
     void set_count(std::vector<CampbellMode>& modes, std::size_t count);
     void set_modes(std::size_t count, CampbellPoint& point);
 
-    const System& system_;
-    const RotorMap& rotor_;
-    CampbellOptions options_;
-    ModeRange range_;
     std::vector<int> unknowns_;
     std::vector<int> moving_;  ///< with loops: these, and the coordinates that follow them; empty without
     std::optional<ColemanTransform> coleman_;
@@ -145,7 +131,7 @@ private:
     SteadyState steady_;
     DynamicState turned_;
     Linearisation lin_;
-    SecondOrderSystem current_, other_;
+    SecondOrderSystem other_;
     std::vector<CampbellMode> spare_;  // memory for modes beyond those of the last point
 };
 
@@ -155,6 +141,6 @@ double lowest_vibration(const std::vector<CampbellMode>& modes);
 
 /// The solver for the method of the options.
 /// @throws InputError as the solvers
-std::unique_ptr<PointMethod> point_method(const System& system, const RotorMap& rotor, const CampbellOptions& options);
+std::unique_ptr<PointSolver> point_solver(const System& system, const RotorMap& rotor, const CampbellOptions& options);
 
 }  // namespace cardan::solvers

@@ -67,7 +67,7 @@ struct Start {
 // gone by then.
 struct Probe {
     double parameter;
-    std::unique_ptr<PointMethod> solver;
+    std::unique_ptr<PointSolver> solver;
     CampbellPoint point = {};
     std::optional<StaticRoots> roots = {};  // none: they were not looked for, or could not be found
 };
@@ -92,10 +92,10 @@ private:
         modes.all_state_motions = true;  // they are followed as well
         return modes;
     }
-    void start(PointMethod& solver, const CampbellCase& one) const;
+    void start(PointSolver& solver, const CampbellCase& one) const;
     std::optional<Probe> probe(double parameter);
     Probe certain_probe(double parameter);
-    void check_machine(const CampbellCase& one, const PointMethod& solver);
+    void check_machine(const CampbellCase& one, const PointSolver& solver);
     void find_static_roots(Probe& probe);
     void accept(Probe probe, const PeriodicMac& likeness);
     bool follow(std::optional<Probe> next, double to, int halvings);
@@ -123,12 +123,12 @@ private:
     // By point that was accepted.
     std::vector<double> parameters_;
     std::vector<Start> starts_;
-    std::vector<std::unique_ptr<PointMethod>> solvers_;
+    Sweep::Solvers solvers_;
     std::vector<std::optional<StaticRoots>> roots_;
     StabilityLimits found_;
 };
 
-void LimitSearch::check_machine(const CampbellCase& one, const PointMethod& solver) {
+void LimitSearch::check_machine(const CampbellCase& one, const PointSolver& solver) {
     if (rows_.empty()) {
         rotor_ = *one.rotor;
         rows_ = solver.row_names();
@@ -149,7 +149,7 @@ void LimitSearch::find_static_roots(Probe& probe) {
 }
 
 // Where the machine comes without a start, that is the steady state of the nearest point that was accepted.
-void LimitSearch::start(PointMethod& solver, const CampbellCase& one) const {
+void LimitSearch::start(PointSolver& solver, const CampbellCase& one) const {
     if (one.start.size() > 0 || starts_.empty()) return solver.start_from(one.start, one.state_start);
     const auto distance = [&](double parameter) { return std::abs(parameter - one.parameter); };
     const auto nearest = std::ranges::min_element(parameters_, {}, distance) - parameters_.begin();
@@ -165,7 +165,7 @@ std::optional<Probe> LimitSearch::probe(double parameter) {
     one.parameter = parameter;
     if (parameter_.empty()) one.rotor_speed = parameter;
     check_case(one, parameter_);
-    Probe out{parameter, point_method(*one.system, *one.rotor, modes_)};
+    Probe out{parameter, point_solver(*one.system, *one.rotor, modes_)};
     check_machine(one, *out.solver);
     if (!solvers_.empty()) out.solver->mode_range() = solvers_.front()->mode_range();
     start(*out.solver, one);
@@ -339,9 +339,7 @@ StabilityLimits LimitSearch::run(double from, double to) {
         found_.diagram.complete = false;
         return std::move(found_);
     }
-    std::vector<const PointMethod*> solvers;
-    for (const auto& solver : solvers_) solvers.push_back(solver.get());
-    found_.diagram = sweep_.finish(rotor_, solvers, BranchesOf::curves);
+    found_.diagram = sweep_.finish(rotor_, solvers_, BranchesOf::curves);
     found_.diagram.complete = parameters_.back() == to;
     if (!parameter_.empty()) found_.diagram.parameters = parameters_;
     notes_.tell_growth(found_.diagram);

@@ -80,7 +80,7 @@ int naming_row(const SecondOrderSystem& system, const Mode& mode) {
 }
 
 PeriodicPointSolver::PeriodicPointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options)
-    : system_(system), rotor_(rotor), options_(options), standstill_(system, rotor, options) {
+    : PointSolver(system, rotor, options) {
     if (rotor.spin < 0) throw InputError(rotor.machine, "rotor", "none", "one, for Floquet's theory");
     if (options.balanced)
         throw InputError(rotor.machine, "balanced rotor with a periodic steady state", "asked for",
@@ -92,12 +92,14 @@ PeriodicPointSolver::PeriodicPointSolver(const System& system, const RotorMap& r
     if (o.max_steps < 0) throw InputError(rotor.machine, "limit of steps per revolution", o.max_steps, ">= 0");
 }
 
-void PeriodicPointSolver::warn(const std::string& what) {
-    if (warning_.empty() && !what.empty()) warning_ = what;
+void PeriodicPointSolver::warn_once(const std::string& what) {
+    if (warned_ || what.empty()) return;
+    warn(what);
+    warned_ = true;
 }
 
 void PeriodicPointSolver::start_from(const Matrix& coordinates, const Matrix& states) {
-    standstill_.start_from(coordinates, states);
+    PointSolver::start_from(coordinates, states);
     start_ = coordinates;
     state_start_ = states;
     prepared_.clear();
@@ -114,10 +116,9 @@ void PeriodicPointSolver::prepare(std::span<const double> rotor_speeds) {
 
 void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     if (rotor_speed == 0) {
-        standstill_.solve(0, point);
-        mean_ = standstill_.system();
-        for (CampbellMode& m : point.modes) m.row = naming_row(mean_, m.mode);
-        name_weak_spin(point.modes, mean_.M, spin_row());
+        PointSolver::solve(0, point);
+        for (CampbellMode& m : point.modes) m.row = naming_row(current_, m.mode);
+        name_weak_spin(point.modes, current_.M, spin_row());
         if (options_.method == CampbellMethod::averaged) leave_out_free_spin(lowest_elastic(point), point);
         return;
     }
@@ -128,7 +129,7 @@ void PeriodicPointSolver::solve(double rotor_speed, CampbellPoint& point) {
     const PeriodicSystem periodic = multi_blade_system();
     set_symmetry(periodic);
     set_mean(periodic);
-    if (!energy_shares()) standstill_.define_components(standstill_.linearised_at(state_->at(0)));
+    if (!energy_shares()) define_components(linearised_at(state_->at(0)));
     point.rotor_speed = rotor_speed;
     point.at = state_->at(0);
     point.periodic = state_;
@@ -159,25 +160,25 @@ void PeriodicPointSolver::find_steady_state(double rotor_speed) {
         found = periodic_sweep(system_, rotor_.spin, from_the_last, options).back();
     }
     require_result(found, [&] { return text(rotor_.machine, " at ", rotor_speed * units::to_rpm, " rpm"); });
-    if (!found.note.empty()) warn(text("at ", rotor_speed * units::to_rpm, " rpm ", found.note));
-    warn(found.neglected_in_words());
+    if (!found.note.empty()) warn_once(text("at ", rotor_speed * units::to_rpm, " rpm ", found.note));
+    warn_once(found.neglected_in_words());
     state_ = std::move(found);
 }
 
 PeriodicSystem PeriodicPointSolver::multi_blade_system() const {
-    PeriodicSystem raw = linearised(system_, *state_, standstill_.moving(), unknowns());
-    const ColemanTransform* T = standstill_.coleman();
+    PeriodicSystem raw = linearised(system_, *state_, moving(), unknowns());
+    const ColemanTransform* T = coleman();
     return T ? in_multi_blade_rows(std::move(raw), *T, state_->rotor_speed) : raw;
 }
 
 void PeriodicPointSolver::set_mean(const PeriodicSystem& periodic) {
     const int samples = std::max({24, 2 * static_cast<int>(rotor_.blades.size()) + 1, 4 * (state_->harmonics() + 1)});
-    mean_ = mean_over_period(periodic, samples, symmetry_);
+    current_ = mean_over_period(periodic, samples, symmetry_);
 }
 
 // x(t + T/Q) in multi-blade rows, where equal blades look the same except for signs.
 BladeSymmetry PeriodicPointSolver::renumbering() const {
-    const ColemanTransform* T = standstill_.coleman();
+    const ColemanTransform* T = coleman();
     if (!T || rotor_.blades.empty() || !rotor_.evenly_spaced) return {};
     std::vector<int> odd = rotor_.blades.size() == 2 ? rotor_.odd_coordinates : std::vector<int>();
     std::erase_if(odd, [&](int i) { return row_of(unknowns(), i) < 0; });
@@ -200,7 +201,7 @@ void PeriodicPointSolver::set_symmetry(const PeriodicSystem& periodic) {
     symmetry_ = renumbering();
     difference_ = asymmetry(periodic, symmetry_);
     structure_differs_ =
-        difference_ > small_difference && structure_differs(system_, rotor_, standstill_, symmetry_, small_difference);
+        difference_ > small_difference && structure_differs(system_, rotor_, *this, symmetry_, small_difference);
     // Blades that move alike differ by kinks only, which the mean of all parts of the turn tells no better than one's.
     const bool alike = difference_ < 1e-8 || (options_.method == CampbellMethod::averaged && !structure_differs_ &&
                                               blades_move_alike(rotor_, *state_, system_.forces.states()));
@@ -214,14 +215,15 @@ void PeriodicPointSolver::warn_of_differing_blades() {
         text("at ", state_->rotor_speed * units::to_rpm,
              " rpm the rotor is not the same when its blades are renumbered (", difference_, " of the diagonals): ");
     if (structure_differs_)
-        warn(text(where,
-                  "blades or hub differ, and the mean over the azimuth may have frequencies that no motion of the "
-                  "machine has. Take CampbellMethod::floquet"));
+        warn_once(text(where,
+                       "blades or hub differ, and the mean over the azimuth may have frequencies that no motion of the "
+                       "machine has. Take CampbellMethod::floquet"));
     else
-        warn(text(where,
-                  "what acts on the blades differs, as on curves of airfoils with kinks, where a section may have one "
-                  "slope on one blade and another on the next; mass and springs are alike, and the mean over the "
-                  "azimuth has the mean of the slopes"));
+        warn_once(
+            text(where,
+                 "what acts on the blades differs, as on curves of profiles with kinks, where a section may have one "
+                 "slope on one blade and another on the next; mass and springs are alike, and the mean over the "
+                 "azimuth has the mean of the slopes"));
 }
 
 FloquetOptions PeriodicPointSolver::floquet_options() const {
@@ -248,19 +250,19 @@ Index PeriodicPointSolver::spin_row() const {
 void PeriodicPointSolver::set_floquet_modes(const PeriodicSystem& periodic, CampbellPoint& point) {
     const FloquetOptions options = floquet_options();
     Floquet result = floquet(periodic, options);
-    if (!result.note.empty()) warn(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.note));
+    if (!result.note.empty()) warn_once(text("at ", state_->rotor_speed * units::to_rpm, " rpm ", result.note));
     move_state_motions(result.modes, point);
-    find_weak_spin(result.modes, mean_.M, std::abs(state_->rotor_speed), spin_row());
+    find_weak_spin(result.modes, current_.M, std::abs(state_->rotor_speed), spin_row());
     for (FloquetMode& mode : result.modes) {
-        find_displacement(mode, mean_.M, std::abs(state_->rotor_speed));
+        find_displacement(mode, current_.M, std::abs(state_->rotor_speed));
         const bool slow = std::abs(mode.exponent) < rigid_per_radian * std::abs(state_->rotor_speed),
                    pair = mode.kind == FloquetKind::oscillation;
         if (slow) mode.kind = FloquetKind::rigid;
         if (slow && pair) point.modes.push_back(make(FloquetMode(mode)));
         point.modes.push_back(make(std::move(mode)));
     }
-    separate_displacements(point.modes, mean_.M);
-    name_weak_spin(point.modes, mean_.M, spin_row());
+    separate_displacements(point.modes, current_.M);
+    name_weak_spin(point.modes, current_.M, spin_row());
     std::stable_sort(point.modes.begin(), point.modes.end(), [](const CampbellMode& a, const CampbellMode& b) {
         return a.mode.natural_hz() < b.mode.natural_hz();
     });
@@ -276,7 +278,7 @@ void PeriodicPointSolver::move_state_motions(std::vector<FloquetMode>& modes, Ca
                                                     .shape = mode.harmonics.col(principal),
                                                     .states = mode.state_harmonics.col(principal),
                                                     .state_share = mode.state_share},
-                                                   mean_.states.scales));
+                                                   current_.states.scales));
     }
     std::erase_if(modes, [](const FloquetMode& mode) { return mode.is_state_motion(); });
     std::stable_sort(point.state_motions.begin(), point.state_motions.end(),
@@ -290,24 +292,23 @@ void PeriodicPointSolver::move_state_motions(std::vector<FloquetMode>& modes, Ca
 // blades' own coordinates, their elastic energies over the revolution tell.
 void PeriodicPointSolver::set_blade_shares(CampbellPoint& point) const {
     constexpr int azimuths = 32, most = 8;  // most: harmonics that are compared
-    const ColemanTransform* T = standstill_.coleman();
-    const Linearisation lin = standstill_.linearised_at(point.at);
+    const ColemanTransform* T = coleman();
+    const Linearisation lin = linearised_at(point.at);
     std::vector<Matrix> at;
     at.reserve(azimuths);
-    for (int i = 0; i < azimuths; ++i)
-        at.push_back(T ? T->matrix(2 * pi * i / azimuths) : standstill_.rotating_coordinates());
+    for (int i = 0; i < azimuths; ++i) at.push_back(T ? T->matrix(2 * pi * i / azimuths) : rotating_coordinates());
     for (CampbellMode& m : point.modes) {
         m.blade_shares = Vector::Zero(std::ssize(rotor_.blades));
         ComplexMatrix harmonics = ComplexMatrix::Zero(std::ssize(unknowns()), 2 * most + 1);
         for (int i = 0; i < azimuths; ++i) {
             const ComplexVector x = entry(at, i) * m.floquet->shape(m.floquet->period * i / azimuths);
-            m.blade_shares += standstill_.blade_energies(lin, x);
+            m.blade_shares += blade_energies(lin, x);
             for (int j = -most; j <= most; ++j)
                 harmonics.col(j + most) += std::polar(1.0 / azimuths, -2 * pi * j * i / azimuths) * x;
         }
         if (const double sum = m.blade_shares.sum(); sum > 0) m.blade_shares /= sum;
         Vector energy(harmonics.cols());
-        for (Index j = 0; j < energy.size(); ++j) energy(j) = standstill_.blade_energies(lin, harmonics.col(j)).sum();
+        for (Index j = 0; j < energy.size(); ++j) energy(j) = blade_energies(lin, harmonics.col(j)).sum();
         m.own_harmonic = largest(energy) - most;
     }
 }
@@ -322,7 +323,7 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
         leave_out_ends(mode);
     const ComplexVector principal = mode.harmonics.col(-mode.first_harmonic);
     // A rigid displacement has no energy.
-    const double energy = rigid ? hermitian_form(mean_.M, principal) : 2 * mode.share(0),
+    const double energy = rigid ? hermitian_form(current_.M, principal) : 2 * mode.share(0),
                  factor = energy > 0 ? std::sqrt(2 / energy) : 1.0;
     if (rigid) {
         mode.harmonics *= factor;
@@ -334,37 +335,37 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
     out.shares = energy_shares()->shares(harmonics, 2 * pi / mode.period);
     if (rigid)
         for (Share& share : out.shares) share = Share{};
-    Vector elastic = Vector::Zero(mean_.M.rows()), kinetic = elastic;
+    Vector elastic = Vector::Zero(current_.M.rows()), kinetic = elastic;
     for (const Mode& one : harmonics) {
-        const ComplexVector force = mean_.K_elastic * one.shape;
+        const ComplexVector force = current_.K_elastic * one.shape;
         elastic += (one.shape.conjugate().array() * force.array()).real().matrix();
-        kinetic += kinetic_by_row(mean_, one.shape, one.eigenvalue);
+        kinetic += kinetic_by_row(current_, one.shape, one.eigenvalue);
     }
     const double total = elastic.sum();
     out.row_shares = total > 0 && !rigid ? Vector(elastic / total) : Vector::Zero(elastic.size());
     if (rigid)
-        out.row = largest(kinetic_by_row(mean_, principal, 1));
+        out.row = largest(kinetic_by_row(current_, principal, 1));
     else if (total < 2 * elastic_limit)  // of the energy, which is 2 in these units
         out.row = largest(kinetic);
     return out;
 }
 
 void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) {
-    for (Mode& mode : modes(mean_, standstill_.mode_range().largest(options_, state_->rotor_speed, mean_))) {
+    for (Mode& mode : modes(current_, range_.largest(options_, state_->rotor_speed, current_))) {
         if (mode.is_state_motion()) {
-            point.state_motions.push_back(state_motion(std::move(mode), mean_.states.scales));
+            point.state_motions.push_back(state_motion(std::move(mode), current_.states.scales));
             continue;
         }
         if (std::abs(mode.eigenvalue) < rigid_per_radian * std::abs(state_->rotor_speed)) continue;
         CampbellMode& m = point.modes.emplace_back();
         if (std::abs(mode.eigenvalue) < free_spin_limit * std::abs(state_->rotor_speed))
-            m.row = naming_row(mean_, mode);
-        if (is_motion_of_speed(mean_, mode, static_cast<int>(spin_row()))) m.row = static_cast<int>(spin_row());
-        m.row_shares = energy_by_row(mean_, mode);
+            m.row = naming_row(current_, mode);
+        if (is_motion_of_speed(current_, mode, static_cast<int>(spin_row()))) m.row = static_cast<int>(spin_row());
+        m.row_shares = energy_by_row(current_, mode);
         m.shares = energy_shares()->shares(mode);
         m.mode = std::move(mode);
     }
-    standstill_.mode_range().set(point.modes, state_->rotor_speed);
+    range_.set(point.modes, state_->rotor_speed);
     leave_out_free_spin(std::abs(state_->rotor_speed), point);
 }
 
@@ -372,13 +373,13 @@ void PeriodicPointSolver::set_mean_modes(CampbellPoint& point) {
 void PeriodicPointSolver::leave_out_free_spin(double scale, CampbellPoint& point) const {
     std::erase_if(point.modes, [&](const CampbellMode& m) {
         if (std::abs(m.mode.eigenvalue) >= free_spin_limit * scale) return false;
-        const int row = largest(kinetic_by_row(mean_, m.mode.shape, m.mode.eigenvalue));
+        const int row = largest(kinetic_by_row(current_, m.mode.shape, m.mode.eigenvalue));
         return entry(unknowns(), row) == rotor_.spin;
     });
     set_stability_margin(point);
 }
 
-std::unique_ptr<PointMethod> point_method(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
+std::unique_ptr<PointSolver> point_solver(const System& system, const RotorMap& rotor, const CampbellOptions& options) {
     if (options.method == CampbellMethod::floquet || options.method == CampbellMethod::averaged)
         return std::make_unique<PeriodicPointSolver>(system, rotor, options);
     return std::make_unique<PointSolver>(system, rotor, options);

@@ -12,7 +12,7 @@ namespace cardan::solvers {
 /// For one rotor speed after another: periodic steady state (harmonic balance, started from the previous one),
 /// linearisation about it in multi-blade rows, and Floquet modes with their energy shares or the modes of the azimuthal
 /// average. At standstill as PointSolver. Keeps references to system and machine; one per thread.
-class PeriodicPointSolver : public PointMethod {
+class PeriodicPointSolver : public PointSolver {
 public:
     /// @throws InputError without a rotor, for two blades unless the method is Floquet's, and as ColemanTransform
     PeriodicPointSolver(const System& system, const RotorMap& rotor, const CampbellOptions& options);
@@ -23,16 +23,6 @@ public:
     /// @throws InputError for options out of range; NumericalError where no periodic steady state is found (for example
     /// if a mean load acts on an unrestrained coordinate), and as floquet(); the solver can be used again
     void solve(double rotor_speed, CampbellPoint& point) override;
-
-    const std::vector<int>& unknowns() const override { return standstill_.unknowns(); }
-    std::vector<std::string> row_names() const override { return standstill_.row_names(); }
-    std::vector<std::string> state_names() const override { return standstill_.state_names(); }
-    const SecondOrderSystem& system() const override { return mean_; }
-    const EnergyShares* energy_shares() const override { return standstill_.energy_shares(); }
-    Matrix rotating_coordinates() const override { return standstill_.rotating_coordinates(); }
-    const ColemanTransform* coleman() const override { return standstill_.coleman(); }
-    const std::string& warning() const override { return warning_; }
-    ModeRange& mode_range() override { return standstill_.mode_range(); }
 
 private:
     void find_steady_state(double rotor_speed);
@@ -49,20 +39,15 @@ private:
     CampbellMode make(FloquetMode&& found) const;
     void set_blade_shares(CampbellPoint& point) const;
     Eigen::Index spin_row() const;
-    void warn(const std::string& what);
+    void warn_once(const std::string& what);
 
-    const System& system_;
-    const RotorMap& rotor_;
-    CampbellOptions options_;
-    PointSolver standstill_;                          // also: rows, names, energy shares
     Matrix start_, state_start_;                      // of the first point
     std::map<double, PeriodicSteadyState> prepared_;  // by rotor speed
     std::optional<PeriodicSteadyState> state_;        // the last one
     BladeSymmetry symmetry_;                          // of the last point; none if the blades differ
     double difference_ = 0;                           // of the blades
     bool structure_differs_ = false;
-    SecondOrderSystem mean_;
-    std::string warning_;
+    bool warned_ = false;
 };
 
 /// Row with most kinetic energy if the mode has (almost) no elastic energy, else -1; for modes of constant systems.

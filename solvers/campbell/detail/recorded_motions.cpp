@@ -9,7 +9,7 @@ namespace cardan::solvers {
 namespace {
 
 // Shapes in blade coordinates at azimuth 0.
-ComplexMatrix shapes_at_azimuth_0(const PointMethod& solver, const CampbellPoint& point,
+ComplexMatrix shapes_at_azimuth_0(const PointSolver& solver, const CampbellPoint& point,
                                   const std::vector<int>& modes) {
     const Matrix T = solver.rotating_coordinates();
     ComplexMatrix shapes(T.rows(), std::ssize(modes));
@@ -25,7 +25,7 @@ ComplexMatrix shapes_at_azimuth_0(const PointMethod& solver, const CampbellPoint
 
 }  // namespace
 
-std::vector<std::vector<FrameMotion>> motions(const System& system, const PointMethod& solver,
+std::vector<std::vector<FrameMotion>> motions(const System& system, const PointSolver& solver,
                                               const CampbellPoint& point, const std::vector<int>& modes,
                                               const std::vector<FrameId>& frames) {
     Workspace workspace(system.model);

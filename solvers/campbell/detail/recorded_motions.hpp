@@ -15,7 +15,7 @@ std::vector<FrameId> recorded_frames(const System& system, const RotorMap& rotor
 
 /// Motions of frames in some modes of a point, at azimuth 0: shapes times frame Jacobians.
 /// @return  [mode of the point][frame]; empty for other modes
-std::vector<std::vector<FrameMotion>> motions(const System& system, const PointMethod& solver,
+std::vector<std::vector<FrameMotion>> motions(const System& system, const PointSolver& solver,
                                               const CampbellPoint& point, const std::vector<int>& modes,
                                               const std::vector<FrameId>& frames);
 

@@ -148,7 +148,7 @@ Sweep::Sweep(const CampbellOptions& options, std::string why, std::size_t points
         throw InputError("Campbell diagram", "largest frequency [Hz]", options.max_frequency_hz, "> 0");
 }
 
-void Sweep::set_machine(const System& system, const RotorMap& rotor, const PointMethod& solver) {
+void Sweep::set_machine(const System& system, const RotorMap& rotor, const PointSolver& solver) {
     diagram_.machine = rotor.machine;
     diagram_.source = rotor.description;
     const std::vector<int>& unknowns = solver.unknowns();
@@ -176,7 +176,7 @@ bool Sweep::is_cancelled() {
     return true;
 }
 
-bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed, double parameter) {
+bool Sweep::add(const System& system, PointSolver& solver, double rotor_speed, double parameter) {
     if (is_cancelled()) return false;
     CampbellPoint point;
     try {
@@ -198,14 +198,14 @@ bool Sweep::add(const System& system, PointMethod& solver, double rotor_speed, d
     return true;
 }
 
-CampbellPoint Sweep::solve(PointMethod& solver, double rotor_speed) {
+CampbellPoint Sweep::solve(PointSolver& solver, double rotor_speed) {
     CampbellPoint point;
     solver.solve(rotor_speed, point);
     align(*solver.energy_shares(), point);
     return point;
 }
 
-PeriodicMac Sweep::likeness(const PointMethod& solver, const CampbellPoint& point) const {
+PeriodicMac Sweep::likeness(const PointSolver& solver, const CampbellPoint& point) const {
     if (options_.method == CampbellMethod::floquet) return likeness_of_periodic(solver, point);
     const Matrix mac = tracker_.mac(solver.system(), point);
     return {mac, mac};
@@ -223,7 +223,7 @@ void Sweep::add(CampbellPoint point, const PeriodicMac& likeness, double paramet
 
 // A rotor that begins to turn takes its blades along, but not what a tower sees of them: a mode at standstill continues
 // in the fixed frame or, if it is one of single blades, with them.
-PeriodicMac Sweep::likeness_of_periodic(const PointMethod& solver, const CampbellPoint& point) const {
+PeriodicMac Sweep::likeness_of_periodic(const PointSolver& solver, const CampbellPoint& point) const {
     const std::vector<const CampbellMode*> last = tracker_.last();
     PeriodicMac fixed = periodic_mac(solver.system(), last, point.modes);
     const bool starts = !diagram_.points.empty() && diagram_.points.back().rotor_speed == 0 && point.rotor_speed != 0;
@@ -260,7 +260,7 @@ void Sweep::align(const EnergyShares& own, CampbellPoint& point) {
     }
 }
 
-void Sweep::set_branches(const std::vector<const PointMethod*>& solvers, BranchesOf of) {
+void Sweep::set_branches(const Solvers& solvers, BranchesOf of) {
     const EnergyShares* energy_shares = solvers[0]->energy_shares();
     if (!energy_shares) return;
     diagram_.components = energy_shares->components();
@@ -279,17 +279,17 @@ void Sweep::set_branches(const std::vector<const PointMethod*>& solvers, Branche
                                            modes_of_branches(diagram_, i), frames_));
 }
 
-void Sweep::set_warning(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers) {
+void Sweep::set_warning(const RotorMap& rotor, const Solvers& solvers) {
     if (options_.method == CampbellMethod::frozen_azimuth && rotor.blades.size() > 2)
         diagram_.warning =
             "frozen azimuth: these are eigenvalues of the equations at one azimuth, no motions of the machine; they "
             "show spurious damping. Use the Coleman result for design";
-    for (const PointMethod* solver : solvers)
+    for (const std::unique_ptr<PointSolver>& solver : solvers)
         if (solvers.size() == 1 || diagram_.warning.empty()) append(diagram_.warning, solver->warning());
     append(diagram_.warning, instability_);
 }
 
-Campbell Sweep::finish(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers, BranchesOf of) {
+Campbell Sweep::finish(const RotorMap& rotor, const Solvers& solvers, BranchesOf of) {
     set_branches(solvers, of);
     set_warning(rotor, solvers);
     if (diagram_.parameter.empty()) find_crossings(diagram_);

@@ -6,6 +6,7 @@
 #include "solvers/mode_names/detail/floquet_mac.hpp"
 #include "solvers/mode_names/detail/tracking.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,20 +20,22 @@ void check_case(const CampbellCase& one, const std::string& parameter);
 /// added.
 class Sweep {
 public:
+    using Solvers = std::vector<std::unique_ptr<PointSolver>>;
+
     /// @param options  kept as a reference; their method is the one chosen
     /// @param why      it was
     /// @param points   number of them, for CampbellOptions::progress
     Sweep(const CampbellOptions& options, std::string why, std::size_t points, const std::string& parameter = {});
 
-    void set_machine(const System& system, const RotorMap& rotor, const PointMethod& solver);
+    void set_machine(const System& system, const RotorMap& rotor, const PointSolver& solver);
     /// Computes the point of a rotor speed and adds it. False if it was cancelled.
-    bool add(const System& system, PointMethod& solver, double rotor_speed, double parameter = 0);
+    bool add(const System& system, PointSolver& solver, double rotor_speed, double parameter = 0);
 
     /// Shares are by the components of the first machine.
     /// @throws InputError for a machine that has others
-    CampbellPoint solve(PointMethod& solver, double rotor_speed);
+    CampbellPoint solve(PointSolver& solver, double rotor_speed);
     /// Of the last known mode of every track with the modes of a point that is to be the next.
-    PeriodicMac likeness(const PointMethod& solver, const CampbellPoint& point) const;
+    PeriodicMac likeness(const PointSolver& solver, const CampbellPoint& point) const;
     /// Tracker::continues() up to the largest frequency of the options.
     bool continues(const PeriodicMac& likeness, const CampbellPoint& point) const;
     /// Without shapes (CampbellOptions::keep_shapes), which need the machine at the end.
@@ -40,15 +43,14 @@ public:
     void add(CampbellPoint point, const PeriodicMac& likeness, double parameter);
 
     /// @param solvers  by point, or one for all
-    Campbell finish(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers,
-                    BranchesOf of = BranchesOf::names);
+    Campbell finish(const RotorMap& rotor, const Solvers& solvers, BranchesOf of = BranchesOf::names);
 
 private:
     bool is_cancelled();
     void align(const EnergyShares& own, CampbellPoint& point);
-    PeriodicMac likeness_of_periodic(const PointMethod& solver, const CampbellPoint& point) const;
-    void set_branches(const std::vector<const PointMethod*>& solvers, BranchesOf of);
-    void set_warning(const RotorMap& rotor, const std::vector<const PointMethod*>& solvers);
+    PeriodicMac likeness_of_periodic(const PointSolver& solver, const CampbellPoint& point) const;
+    void set_branches(const Solvers& solvers, BranchesOf of);
+    void set_warning(const RotorMap& rotor, const Solvers& solvers);
 
     const CampbellOptions& options_;
     std::string why_;  // this method was chosen

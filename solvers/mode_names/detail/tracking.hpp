@@ -46,7 +46,7 @@ public:
     /// Branches with names: every branch gets the component and rotor pattern that hold most of its elastic energy over
     /// the sweep, or the coordinate that moves most, no name twice (assignment again).
     /// Branches of states have names of their own: take_branches_of_states().
-    /// @param rows  names of the rows (PointMethod::row_names)
+    /// @param rows  names of the rows (PointSolver::row_names)
     /// @param states  in the order of Mode::states
     /// @param whirl  name the rotor's pairs backward and forward, else cosine and sine
     /// @param neighbour  with all points; null: none

@@ -9,7 +9,7 @@
 
 namespace cardan::solvers {
 
-void take_vibrations_of_states(const PointMethod& solver, CampbellPoint& point) {
+void take_vibrations_of_states(const PointSolver& solver, CampbellPoint& point) {
     const SecondOrderSystem& system = solver.system();
     std::vector<StateMotion> others;
     for (StateMotion& motion : point.state_motions) {

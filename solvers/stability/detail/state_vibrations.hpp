@@ -7,6 +7,6 @@
 namespace cardan::solvers {
 
 /// Oscillating motions of states become modes, with unit energy as these have.
-void take_vibrations_of_states(const PointMethod& solver, CampbellPoint& point);
+void take_vibrations_of_states(const PointSolver& solver, CampbellPoint& point);
 
 }  // namespace cardan::solvers

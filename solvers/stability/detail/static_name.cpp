@@ -63,7 +63,7 @@ private:
 
 }  // namespace
 
-std::string static_name(const PointMethod& solver, const StaticRoots& roots, int k,
+std::string static_name(const PointSolver& solver, const StaticRoots& roots, int k,
                         const std::vector<std::string>& rows) {
     const Vector x = roots.shapes.col(k);
     const int row = naming_row(solver.system(), {Complex(0, roots.sigma), x.cast<Complex>()});

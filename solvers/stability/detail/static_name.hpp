@@ -14,7 +14,7 @@ namespace cardan::solvers {
 /// @param solver  at whose last point the roots are
 /// @param k       of the roots
 /// @param rows    their names
-std::string static_name(const PointMethod& solver, const StaticRoots& roots, int k,
+std::string static_name(const PointSolver& solver, const StaticRoots& roots, int k,
                         const std::vector<std::string>& rows);
 
 }  // namespace cardan::solvers

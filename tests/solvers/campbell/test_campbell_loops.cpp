@@ -4,6 +4,8 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/tree_tools.hpp"
 
+#include <algorithm>
+
 using namespace cardan;
 using namespace cardan::solvers;
 using namespace cardan::testing;
@@ -103,6 +105,10 @@ TEST_CASE("campbell: with gravity, by Floquet's theory, the geared rotor is the 
     const std::vector<double> speeds = {4, 9};
     const Campbell with = campbell(geared.system, geared.map, speeds, options),
                    without = campbell(plain.system, plain.map, speeds, options);
+    const auto turn = [&](std::size_t s, std::size_t i, const char* frame) {
+        const auto at = static_cast<std::size_t>(std::ranges::find(with.frames, frame) - with.frames.begin());
+        return Vec3T<Complex>(with.motions[s][i].at(at).motion.head<3>());
+    };
     for (std::size_t s = 0; s < speeds.size(); ++s) {
         const auto &a = with.points.at(s).modes, &b = without.points.at(s).modes;
         REQUIRE(a.size() == b.size());
@@ -111,6 +117,11 @@ TEST_CASE("campbell: with gravity, by Floquet's theory, the geared rotor is the 
             CHECK(a[i].kind() == b[i].kind());
             if (b[i].kind() == FloquetKind::rigid) continue;
             CHECK(std::abs(a[i].mode.eigenvalue - b[i].mode.eigenvalue) < 1e-7 * std::abs(b[i].mode.eigenvalue));
+            if (with.motions[s][i].empty()) continue;
+            const Vec3T<Complex> flap = turn(s, i, "flap 1") - turn(s, i, "root 1"),
+                                 lever = turn(s, i, "lever 1") - turn(s, i, "root 1");
+            CHECK((lever - 2 * flap).norm() < 1e-9 * (1 + flap.norm()));
+            CHECK(flap.norm() > 1e-6);
         }
     }
 }

@@ -53,7 +53,7 @@ public:
         options.spin = solvers::RotorSpin::prescribed;
         options.max_frequency_hz = 3.5;
         options.floquet.harmonics = 2;
-        solver_ = solvers::point_method(system(), point_.machine.rotor(), options);
+        solver_ = solvers::point_solver(system(), point_.machine.rotor(), options);
         solver_->start_from(steady_.coefficients, steady_.state_coefficients);
         solver_->solve(operation.rotor_speed, modes_);
     }
@@ -118,7 +118,7 @@ private:
 
     AeroelasticPoint point_;
     solvers::PeriodicSteadyState steady_;
-    std::unique_ptr<solvers::PointMethod> solver_;
+    std::unique_ptr<solvers::PointSolver> solver_;
     solvers::CampbellPoint modes_;
 };
 

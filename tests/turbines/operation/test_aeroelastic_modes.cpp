@@ -139,7 +139,7 @@ std::vector<solvers::Mode> modes_in_shapes(const AeroelasticPoint& point, double
     const Turbine& machine = point.machine;
     solvers::CampbellOptions options = low_modes();
     options.method = solvers::CampbellMethod::averaged;
-    const auto method = solvers::point_method(machine.system(), machine.rotor(), options);
+    const auto method = solvers::point_solver(machine.system(), machine.rotor(), options);
     method->start_from(point.start, point.state_start);
     solvers::CampbellPoint found;
     method->solve(rotor_speed, found);
