@@ -12,7 +12,8 @@ namespace {
 using Pair = std::pair<std::string_view, std::string_view>;
 
 constexpr std::array short_families{Pair{"tower fore-aft", "Tower FA"}, Pair{"tower side-side", "Tower SS"},
-                              Pair{"drive-train torsion", "Drivetrain Torsion"}, Pair{"rotor yaw", "Nacelle Yaw"}};
+                                    Pair{"drive-train torsion", "Drivetrain Torsion"},
+                                    Pair{"rotor yaw", "Nacelle Yaw"}};
 constexpr std::array short_patterns{Pair{"backward", "Regressive"}, Pair{"forward", "Progressive"}};
 
 template <std::size_t n>

@@ -86,11 +86,6 @@ std::vector<const CampbellMode*> Tracker::last() const {
     return modes;
 }
 
-void Tracker::add(const SecondOrderSystem& system, const CampbellPoint& point) {
-    const Matrix likeness = mac(system, point);
-    add(likeness, likeness, point);
-}
-
 Matrix Tracker::mac(const SecondOrderSystem& system, const CampbellPoint& point) const {
     const auto count = std::ssize(point.modes);
     Matrix likeness = Matrix::Zero(std::ssize(tracks_), count);

@@ -25,12 +25,10 @@ enum class BranchesOf : std::uint8_t {
 /// Points may differ in anything but their rows. Oscillations, and motions named after a coordinate, begin a track.
 class Tracker {
 public:
-    /// @param system  the (transformed) system of the point: its energy product weighs the MAC
-    void add(const SecondOrderSystem& system, const CampbellPoint& point);
     /// Complex energy MAC of the last known mode of every track (rows) with the modes of a point (columns).
+    /// @param system  the (transformed) system of the point: its energy product weighs the MAC
     Matrix mac(const SecondOrderSystem& system, const CampbellPoint& point) const;
-    /// With a score and MAC supplied by the caller, e.g. from periodic_mac(): one row per track (see last()), one
-    /// column per mode.
+    /// With a score and MAC from mac() or periodic_mac(): one row per track (see last()), one column per mode.
     /// @param score  the assignment maximises its sum; below min_score a track ends
     /// @param mac    kept with the branch
     /// @throws InputError for matrices of another size
@@ -46,7 +44,7 @@ public:
     /// Branches with names: every branch gets the component and rotor pattern that hold most of its elastic energy over
     /// the sweep, or the coordinate that moves most, no name twice (assignment again).
     /// Branches of states have names of their own: take_branches_of_states().
-    /// @param rows  names of the rows (PointSolver::row_names)
+    /// @param rows  names of the rows
     /// @param states  in the order of Mode::states
     /// @param whirl  name the rotor's pairs backward and forward, else cosine and sine
     /// @param neighbour  with all points; null: none
