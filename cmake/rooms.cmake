@@ -13,7 +13,7 @@ room(mbs/geometry SEES mbs/kernels) # curvature, embedding, change of chart
 room(mbs/batch SEES mbs/kernels USES tbb) # many states at once
 room(mbs/urdf SEES mbs/system USES urdfdom) # robots as files
 
-room(elements/sections SEES mbs/model USES boost) # cross sections, reference lines
+room(elements/sections SEES mbs/model) # cross sections, reference lines
 room(elements/machine SEES mbs/system) # joints, drives, brakes, generators, stops, loads
 room(elements/control SEES mbs/system USES dl) # signals, filters, actuators, controllers
 room(elements/aerodynamics SEES mbs/model USES boost) # polars, wind, blade-element momentum

@@ -2,7 +2,7 @@
 /// Structural damping of beams.
 #pragma once
 
-#include "elements/sections/section.hpp"
+#include "elements/sections/beam_line.hpp"
 
 #include <array>
 

@@ -1,6 +1,5 @@
 #include "elements/cardan_beam/element_line.hpp"
 
-#include "elements/sections/reference_line.hpp"
 #include "mbs/base/error.hpp"
 
 namespace cardan {
@@ -25,7 +24,7 @@ ElementLine::ElementLine(const BeamLine& line, double start, double end, const V
 
 Placement ElementLine::pose(double s) const {
     if (line_->is_straight()) return Placement::translation(Vec3(s - start_, 0, 0) - hinge_line_);
-    return axes_.inverse() * line_->axis(s);
+    return axes_.inverse() * line_->pose(s);
 }
 
 }  // namespace cardan

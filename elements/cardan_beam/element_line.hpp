@@ -2,8 +2,8 @@
 /// The part of a beam line that belongs to one element, in element axes: x along the chord between its ends.
 #pragma once
 
+#include "elements/sections/beam_line.hpp"
 #include "elements/sections/quadrature.hpp"
-#include "elements/sections/section.hpp"
 
 namespace cardan {
 

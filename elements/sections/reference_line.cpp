@@ -6,9 +6,6 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/stations.hpp"
 
-#include <array>
-#include <boost/math/interpolators/cubic_hermite.hpp>
-
 namespace cardan {
 
 Mat3 shortest_rotation(const Vec3& a, const Vec3& b, const std::string& where) {
@@ -36,11 +33,9 @@ Mat3 carried(const Mat3& R, const Vec3& step, const Vec3& tangent) {
     return (Mat3() << tangent, straight, cross<double>(tangent, straight)).finished();
 }
 
-using Spline = boost::math::interpolators::cubic_hermite<std::vector<double>>;
-
 // Slopes of the cubic spline with continuous curvature; the two pieces at either end are one cubic (not-a-knot), so
 // that the ends are as exact as the rest, O(h^4). [de Boor, A Practical Guide to Splines, ch. IV]
-Matrix spline_slopes(const std::vector<double>& t, const std::vector<Vec3>& points) {
+std::vector<Vec3> spline_slopes(const std::vector<double>& t, const std::vector<Vec3>& points) {
     const auto n = std::ssize(t);
     const auto h = [&t](Eigen::Index i) { return entry(t, i + 1) - entry(t, i); };
     const auto slope = [&](Eigen::Index i) {
@@ -59,24 +54,50 @@ Matrix spline_slopes(const std::vector<double>& t, const std::vector<Vec3>& poin
     };
     end(0, 1, 0, 1);
     end(n - 1, n - 2, n - 2, n - 3);
-    return A.partialPivLu().solve(b);
+    const Matrix slopes = A.partialPivLu().solve(b);
+    std::vector<Vec3> out;
+    for (Eigen::Index i = 0; i < n; ++i) out.emplace_back(slopes.row(i).transpose());
+    return out;
 }
 
 }  // namespace
 
+// A spline's pieces are cubic Hermite polynomials, with values and slopes at the knots.
+Vec3 ReferenceLine::position(double t) const {
+    if (own_position_) return own_position_(t);
+    const auto [left, right, part] = place_among(knots_, t);
+    const Vec3 &a = points_[left], &b = points_[right];
+    const double h = knots_[right] - knots_[left], from = t - knots_[left];
+    if (slopes_.empty()) return a + (b - a) * from / h;
+    const double rest = 1 - part;
+    return rest * rest * (a * (1 + 2 * part) + slopes_[left] * from) +
+           part * part * (b * (3 - 2 * part) + h * slopes_[right] * (part - 1));
+}
+
+Vec3 ReferenceLine::derivative(double t) const {
+    if (own_derivative_) return own_derivative_(t);
+    const auto [left, right, part] = place_among(knots_, t);
+    const Vec3 &a = points_[left], &b = points_[right];
+    const double h = knots_[right] - knots_[left], from = t - knots_[left];
+    if (slopes_.empty()) return (b - a) / h;
+    if (t >= knots_.back()) return slopes_.back();
+    const Vec3 first = (b - a - slopes_[left] * h) / (h * h), second = (slopes_[right] - slopes_[left]) / (2 * h);
+    return slopes_[left] + 2 * (3 * first - 2 * second) * from + 3 * (2 * (second - first) / h) * from * from;
+}
+
 double ReferenceLine::arc(double from, double to) const {
-    return integrate(from, to, {}, 0.0, [&](double t) { return derivative_(t).norm(); });
+    return integrate(from, to, {}, 0.0, [&](double t) { return derivative(t).norm(); });
 }
 
 void ReferenceLine::divide(const std::vector<double>& knots, int cells_per_piece) {
-    const Vec3 start = derivative_(knots.front()).normalized();
+    const Vec3 start = derivative(knots.front()).normalized();
     Cell cell{knots.front(), 0, shortest_rotation(Vec3::UnitX(), start, "reference line, start")};
     cells_.push_back(cell);
     stations_.push_back(0);
     for (std::size_t k = 1; k < knots.size(); ++k) {
         for (int i = 1; i <= cells_per_piece; ++i) {
             const double t = knots[k - 1] + (knots[k] - knots[k - 1]) * i / cells_per_piece;
-            const Vec3 tangent = derivative_(t).normalized(), step = position_(t) - position_(cell.t);
+            const Vec3 tangent = derivative(t).normalized(), step = position(t) - position(cell.t);
             const double s = cell.s + arc(cell.t, t);
             if (!(s > cell.s) || std::isinf(s) || !step.allFinite())
                 throw InputError("reference line", text("length up to t = ", t, " [m]"), s, "finite and increasing");
@@ -94,11 +115,11 @@ Placement ReferenceLine::pose(double s) const {
     double t = a.t + (b.t - a.t) * (s - a.s) / (b.s - a.s);
     for (int iteration = 0; iteration < 20; ++iteration) {
         const double miss = a.s + (t >= a.t ? arc(a.t, t) : -arc(t, a.t)) - s;
-        t -= miss / derivative_(t).norm();
+        t -= miss / derivative(t).norm();
         if (std::abs(miss) < 1e-14 * length()) break;
     }
-    const Vec3 p = position_(t);
-    return {carried(a.R, p - position_(a.t), derivative_(t).normalized()), p};
+    const Vec3 p = position(t);
+    return {carried(a.R, p - position(a.t), derivative(t).normalized()), p};
 }
 
 ReferenceLine ReferenceLine::curve(std::function<Vec3(double)> position, std::function<Vec3(double)> derivative,
@@ -110,8 +131,8 @@ ReferenceLine ReferenceLine::curve(std::function<Vec3(double)> position, std::fu
             throw InputError("reference line", "position and derivative at an end",
                              text(position(t).transpose(), "; ", derivative(t).transpose()), "finite, not zero");
     ReferenceLine line;
-    line.position_ = std::move(position);
-    line.derivative_ = std::move(derivative);
+    line.own_position_ = std::move(position);
+    line.own_derivative_ = std::move(derivative);
     line.divide({first, last}, 128);
     return line;
 }
@@ -138,60 +159,38 @@ ReferenceLine ReferenceLine::through(const std::vector<Vec3>& points, LineShape 
     std::vector<double> knots{0};
     for (std::size_t i = 1; i < points.size(); ++i) knots.push_back(knots.back() + (points[i] - points[i - 1]).norm());
     ReferenceLine line;
+    line.knots_ = knots;
+    line.points_ = points;
     if (shape == LineShape::spline) {
-        const Matrix slopes = spline_slopes(knots, points);
-        std::array<std::shared_ptr<Spline>, 3> c;
-        for (Eigen::Index axis = 0; axis < 3; ++axis) {
-            std::vector<double> t = knots, values, rates(slopes.col(axis).begin(), slopes.col(axis).end());
-            for (const Vec3& p : points) values.push_back(p(axis));
-            entry(c, axis) = std::make_shared<Spline>(std::move(t), std::move(values), std::move(rates));
-        }
-        // Rounding may put a parameter outside of the table.
-        const auto inside = [last = knots.back()](double t) { return std::clamp(t, 0.0, last); };
-        line.position_ = [c, inside](double t) {
-            return Vec3((*c[0])(inside(t)), (*c[1])(inside(t)), (*c[2])(inside(t)));
-        };
-        line.derivative_ = [c, inside](double t) {
-            return Vec3(c[0]->prime(inside(t)), c[1]->prime(inside(t)), c[2]->prime(inside(t)));
-        };
+        line.slopes_ = spline_slopes(knots, points);
         line.divide(knots, 16);
         return line;
     }
-    const auto piece = [knots](double t) { return place_among(knots, t).right; };
-    line.position_ = [points, knots, piece](double t) {
-        const std::size_t j = piece(t);
-        return Vec3(points[j - 1] + (points[j] - points[j - 1]) * (t - knots[j - 1]) / (knots[j] - knots[j - 1]));
-    };
-    line.derivative_ = [points, knots, piece](double t) {
-        const std::size_t j = piece(t);
-        return Vec3((points[j] - points[j - 1]) / (knots[j] - knots[j - 1]));
-    };
     // Arc length is the parameter; one cell per piece, with the frame turned at the kinks by the shortest way.
     line.stations_ = knots;
     Mat3 R = Mat3::Identity();
     for (std::size_t j = 0; j < points.size(); ++j) {
-        const Vec3 tangent = line.derivative_(knots[j]);
+        const Vec3 tangent = line.derivative(knots[j]);
         R = shortest_rotation(R.col(0), tangent, text("reference line, point ", j + 1)) * R;
         line.cells_.push_back({knots[j], knots[j], R});
     }
     return line;
 }
 
-BeamLine along(const BeamLine& sections, const ReferenceLine& line) {
-    sections.check();
-    if (std::abs(sections.length - line.length()) > 1e-6 * line.length())
-        throw InputError(sections.name, "length of the sections [m]", sections.length,
-                         text(line.length(), ", the length of the reference line"));
-    BeamLine curved = sections;
-    for (double s : line.stations())
-        if (s > 0 && s < sections.length) curved.breaks.push_back(s);
-    std::sort(curved.breaks.begin(), curved.breaks.end());
-    const double tolerance = 1e-9 * sections.length;
-    const auto last = std::unique(curved.breaks.begin(), curved.breaks.end(),
-                                  [tolerance](double a, double b) { return b - a < tolerance; });
-    curved.breaks.erase(last, curved.breaks.end());
-    curved.axis = [line](double s) { return line.pose(s); };
-    return curved;
+ReferenceLine ReferenceLine::scaled(double factor) const {
+    ReferenceLine line = *this;
+    if (own_position_) {
+        line.own_position_ = [own = own_position_, factor](double t) { return Vec3(factor * own(t)); };
+        line.own_derivative_ = [own = own_derivative_, factor](double t) { return Vec3(factor * own(t)); };
+    }
+    for (Vec3& p : line.points_) p *= factor;
+    for (double& t : line.knots_) t *= factor;
+    for (double& s : line.stations_) s *= factor;
+    for (Cell& cell : line.cells_) {
+        cell.s *= factor;
+        if (!own_position_) cell.t *= factor;
+    }
+    return line;
 }
 
 }  // namespace cardan

@@ -7,7 +7,11 @@
 /// rotation.
 #pragma once
 
-#include "elements/sections/section.hpp"
+#include "mbs/model/spatial.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace cardan {
 
@@ -31,6 +35,8 @@ public:
     double length() const { return cells_.back().s; }
     /// Frame at arc length s, in beam axes. At a kink: frame of the piece outboard of it.
     Placement pose(double s) const;
+    /// The curve with all lengths times `factor`, > 0.
+    ReferenceLine scaled(double factor) const;
     /// Arc length of the given points (for a curve, of both ends), m: kinks and knots of the spline.
     const std::vector<double>& stations() const { return stations_; }
 
@@ -42,15 +48,16 @@ private:
     ReferenceLine() = default;
     void divide(const std::vector<double>& knots, int cells_per_piece);
     double arc(double from, double to) const;
+    Vec3 position(double t) const;
+    Vec3 derivative(double t) const;
 
-    std::function<Vec3(double)> position_, derivative_;
+    // Points at knots of the parameter, with their slopes if it is a spline; or a curve's own functions.
+    std::vector<double> knots_;
+    std::vector<Vec3> points_, slopes_;
+    std::function<Vec3(double)> own_position_, own_derivative_;
     std::vector<Cell> cells_;
     std::vector<double> stations_;
 };
-
-/// Sections laid along a curve; their stations are arc lengths.
-/// @throws InputError if the lengths differ by more than 1e-6 of the length
-BeamLine along(const BeamLine& sections, const ReferenceLine& line);
 
 /// The shortest rotation that takes unit vector a to unit vector b. @throws InputError if b = -a
 Mat3 shortest_rotation(const Vec3& a, const Vec3& b, const std::string& where);

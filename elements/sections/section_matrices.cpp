@@ -267,22 +267,4 @@ EngineeringForm engineering_form(const BeamSection& section) {
     return {e, largest_difference(e.section(), section)};
 }
 
-BeamLine matrix_line(const std::string& name, std::vector<double> stations, std::vector<SectionMatrices> sections,
-                     const Mat3& axes) {
-    if (!Placement::rotation(axes).is_valid()) throw InputError(name, "axes", text("\n", axes, "\n"), "a rotation");
-    check_stations(name, stations, sections.size());
-    for (std::size_t i = 0; i < sections.size(); ++i) {
-        sections[i] = rotated(sections[i], axes);
-        static_cast<void>(beam_section(sections[i], text(name, ", station ", i + 1, " (x = ", stations[i], " m)")));
-    }
-    BeamLine line;
-    line.name = name;
-    line.length = stations.back() - stations.front();
-    for (double x : stations) line.breaks.push_back(x - stations.front());
-    line.section = [name, x = line.breaks, sections](double at) {
-        return beam_section(interpolated(sections, place_among(x, at)), text(name, ", x = ", at, " m"));
-    };
-    return line;
-}
-
 }  // namespace cardan

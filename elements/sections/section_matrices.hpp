@@ -62,10 +62,4 @@ struct EngineeringForm {
 /// Principal axes of bending at most 45 degrees from the beam axes, centres, and stiffnesses about them.
 EngineeringForm engineering_form(const BeamSection& section);
 
-/// A line of sections given by matrices at stations, the entries of both matrices linear in between (as in BeamDyn).
-/// @param axes  of the matrices in beam axes (see beamdyn_axes), the reference line being their origin
-/// @throws InputError: fewer than two stations, stations not increasing, a bad section (station named).
-BeamLine matrix_line(const std::string& name, std::vector<double> stations, std::vector<SectionMatrices> sections,
-                     const Mat3& axes = Mat3::Identity());
-
 }  // namespace cardan

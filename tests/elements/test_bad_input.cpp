@@ -158,14 +158,14 @@ TEST_CASE("section table: a stiffness that is infinite at some stations only is 
     soft.GA_y = 1e6;
     check_refused(
         [&] {
-            SectionTable("spar", {0, 1, 2}, {soft, soft, rigid}, Interpolation::linear);
+            (void)beam_line({"spar", {0, 1, 2}, {soft, soft, rigid}});
         },
         {"spar, station 3 (x = 2 m): GA y [N] = inf", "infinite at all stations or at none"});
     rigid = soft;
     rigid.EI_flap = infinite;
     check_refused(
         [&] {
-            SectionTable("spar", {0, 1}, {rigid, soft}, Interpolation::linear);
+            (void)beam_line({"spar", {0, 1}, {rigid, soft}});
         },
         {"station 2", "EI flap [N m^2] = 2", "infinite at all"});
 }
@@ -191,7 +191,7 @@ TEST_CASE("beam: a section function that gives no section is refused with the pl
 TEST_CASE("section table: too few stations, stations that do not increase, a bad one among them", "[property]") {
     const S s = slender(2, 3);
     const auto make = [](std::vector<double> x, std::vector<S> sections) {
-        return [=] { (void)SectionTable("blade", x, sections, Interpolation::linear); };
+        return [=] { (void)beam_line({"blade", x, sections}); };
     };
     check_refused(make({0}, {s}), {"blade: number of stations = 1; allowed: at least 2"});
     check_refused(make({0, 1, 2}, {s, s}), {"blade: number of sections = 2; allowed: 3, one per station"});

@@ -1,12 +1,12 @@
 #include "turbines/machine/built_in.hpp"
 
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/aerodynamics/nrel5mw_air.hpp"
 #include "turbines/machines/nrel5mw.hpp"
 #include "turbines/machines/oc3_hywind.hpp"
 #include "turbines/machines/teetered.hpp"
 #include "turbines/machines/wt600_operation.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/tables/csv.hpp"
 #include "turbines/tables/detail/embedded_data.hpp"
 
@@ -23,7 +23,7 @@ namespace {
 enum class Beams : std::uint8_t { as_they_are, without_torsion };
 
 BeamLine as_table(const BeamLine& line, Beams beams) {
-    const BeamTable* own = table_of(line);
+    const BeamTable* own = line.section.table();
     BeamTable table = own != nullptr ? *own : sampled(line);
     if (beams == Beams::without_torsion)
         for (EngineeringSection& section : table.sections)

@@ -11,7 +11,7 @@ namespace cardan::turbines {
 
 /// The machine as YAML text, but for what its readers noted. Numbers have enough digits to be read back exactly:
 /// parse_machine(to_yaml(m)) computes what m does, bit for bit.
-/// @throws InputError for NaN, for beam lines without a table (see table_of(); sampled() makes one), and for a machine
+/// @throws InputError for NaN, for beam lines without a table (see BeamTable; sampled() makes one), and for a machine
 /// that is not whole (TurbineDescription::missing)
 std::string to_yaml(const Machine& machine);
 /// @throws FileError, InputError

@@ -1,9 +1,9 @@
 #include "turbines/machines/nrel5mw.hpp"
 
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/tables/csv.hpp"
 #include "turbines/tables/detail/embedded_data.hpp"
 

@@ -47,8 +47,7 @@ Nrel5mwBlade read_blade(const CsvTable& t, const Nrel5mwBladeOptions& options) {
     Nrel5mwBlade blade;
     blade.root_radius = radius.front();
     blade.tip_radius = radius.back();
-    blade.line =
-        SectionTable("NREL 5 MW blade", {radius.begin(), radius.end()}, sections, Interpolation::linear).line();
+    blade.line = beam_line({"NREL 5 MW blade", {radius.begin(), radius.end()}, sections});
     return blade;
 }
 

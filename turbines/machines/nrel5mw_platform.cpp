@@ -1,8 +1,8 @@
 #include "turbines/machines/nrel5mw_platform.hpp"
 
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/error.hpp"
 #include "turbines/machines/nrel5mw_geometry.hpp"
-#include "turbines/model/beam_table.hpp"
 
 #include <limits>
 

@@ -1,9 +1,9 @@
 #include "turbines/machines/teetered.hpp"
 
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/tables/csv.hpp"
 #include "turbines/tables/detail/embedded_data.hpp"
 
@@ -99,7 +99,7 @@ TurbineDescription describe(const CsvQuantities& q) {
 }
 
 BeamTable table_with_sections(const TurbineDescription& d, const char* part, const BeamLine& line) {
-    const BeamTable* table = table_of(line);
+    const BeamTable* table = line.section.table();
     if (table == nullptr || table->sections.empty())
         throw InputError(d.name, text("sections of the ", part), "a function or matrices",
                          "a table of engineering constants");

@@ -1,9 +1,9 @@
 #include "turbines/machines/wt600.hpp"
 
+#include "elements/sections/tube.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/tables/csv.hpp"
 #include "turbines/tables/detail/embedded_data.hpp"
 
@@ -34,11 +34,11 @@ BeamLine blade_line(const CsvTable& t, double length) {
         x.push_back(s[i] * length);
         sections.push_back(section);
     }
-    const SectionTable table("blade", x, sections, Interpolation::log_linear_stiffness);
-    BeamLine line = table.line();
+    const BeamTable table{"blade", x, sections, Interpolation::log_linear_stiffness};
+    BeamLine line = beam_line(table);
     // The polar inertia is what the data give; it is shared out as the bending stiffnesses are at the section.
     line.section = [table](double at) {
-        EngineeringSection section = table.at(at);
+        EngineeringSection section = table.constants(at);
         const double polar_inertia = section.j_edge;
         section.j_edge = polar_inertia * section.EI_edge / (section.EI_edge + section.EI_flap);
         section.j_flap = polar_inertia - section.j_edge;

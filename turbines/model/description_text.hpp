@@ -19,7 +19,7 @@ inline constexpr auto computed_machine = "\n\nthe machine that was computed\n";
 
 /// The description as YAML text. Numbers have enough digits to be read back exactly: parse_description(to_yaml(d))
 /// equals d bit for bit.
-/// @throws InputError for NaN, for beam lines without a table (see table_of(); sampled() makes one), and for a machine
+/// @throws InputError for NaN, for beam lines without a table (see BeamTable; sampled() makes one), and for a machine
 /// that is not whole (TurbineDescription::missing)
 std::string to_yaml(const TurbineDescription& description);
 /// Text of a description as to_yaml(), for documentation: lines without a table are written as sampled(), or by name

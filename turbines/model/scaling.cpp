@@ -73,12 +73,7 @@ BeamLine scaled(const BeamLine& line, double s) {
         out.section = [own = line.section, s, end = line.length](double x) {
             return scaled(own(std::min(x / s, end)), s);
         };
-    if (line.axis)
-        out.axis = [own = line.axis, s, end = line.length](double x) {
-            Placement pose = own(std::min(x / s, end));
-            pose.p *= s;
-            return pose;
-        };
+    if (line.axis) out.axis = line.axis->scaled(s);
     return out;
 }
 

@@ -1,7 +1,7 @@
 // Blade and tower files of ElastoDyn and FAST 7.
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/readers/elastodyn.hpp"
 
 #include <algorithm>

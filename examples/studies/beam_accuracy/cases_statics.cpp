@@ -1,5 +1,5 @@
 // Buckling and large deflections: what needs no mass.
-#include "elements/sections/reference_line.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "examples/studies/beam_accuracy/cases.hpp"
 #include "examples/studies/beam_accuracy/chain.hpp"
 

@@ -2,7 +2,7 @@
 /// Large plane deflections by cubic elements that turn with their chord.
 #pragma once
 
-#include "elements/sections/section.hpp"
+#include "elements/sections/beam_line.hpp"
 
 namespace cardan::accuracy {
 

@@ -2,7 +2,7 @@
 /// Displacements inside a two-node beam element by the unknowns of its ends.
 #pragma once
 
-#include "elements/sections/section.hpp"
+#include "elements/sections/beam_line.hpp"
 
 #include <vector>
 

@@ -15,7 +15,7 @@
 /// effect. Equations: docs/nrel5mw_paper2018.md. [Hodges and Dowell 1974, NASA TN D-7818]
 #pragma once
 
-#include "elements/sections/section.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "examples/studies/beams/assumed_modes_basis.hpp"
 #include "examples/studies/beams/assumed_modes_section.hpp"
 #include "examples/studies/beams/hub_motion.hpp"

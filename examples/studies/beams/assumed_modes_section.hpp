@@ -2,7 +2,7 @@
 /// One section of an assumed-modes blade: quadratic forms of its kinetic and elastic energy.
 #pragma once
 
-#include "elements/sections/section.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "examples/studies/beams/hub_motion.hpp"
 
 #include <array>

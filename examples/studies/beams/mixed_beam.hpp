@@ -31,7 +31,7 @@
 /// 1253-1273; D. H. Hodges, AIAA J. 41 (2003) 1131-1137]
 #pragma once
 
-#include "elements/sections/section.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "mbs/model/inertia.hpp"
 #include "mbs/model/spatial.hpp"
 

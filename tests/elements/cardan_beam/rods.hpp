@@ -1,7 +1,7 @@
 // One beam twice: as a line of sections for the elements, and as a Cosserat rod for the oracle.
 #pragma once
 
-#include "elements/sections/reference_line.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "tests/oracles/rod_section.hpp"
 
 namespace cardan::testing {

@@ -1,6 +1,6 @@
 // Structural damping of beams: complex modes of clamped beams, and the damping matrix itself.
 #include "elements/cardan_beam/single_beam.hpp"
-#include "elements/sections/section_matrices.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"

@@ -1,6 +1,6 @@
 // Bodies of the partitions whose hinges follow the compliance, in space: twist, offsets, sectional inertia, curves.
 #include "elements/cardan_beam/cardan_beam.hpp"
-#include "elements/sections/reference_line.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -149,7 +149,7 @@ TEST_CASE("partitions by compliance: bodies of random twisted beams with offsets
             if (trial % 2 == 0) s.j_flap = u(random), s.j_edge = u(random);
             sections.push_back(s);
         }
-        const BeamLine line = SectionTable("random", x, sections, Interpolation::log_linear_stiffness).line();
+        const BeamLine line = beam_line({"random", x, sections, Interpolation::log_linear_stiffness});
         for (const auto& [x0, L] : {std::pair(0.0, 10.0), {0.0, 3.3}, {6.0, 4.0}})
             for (const Partition partition : both_partitions) {
                 const ElementInertia e = partition_element(line, x0, L, delta_gauss, partition);
@@ -198,7 +198,8 @@ TEST_CASE("partitions by compliance: on a curve mass and first moment are kept, 
     // A quarter circle of radius 4 in the plane x-z.
     BeamLine line = blade();
     line.length = 2 * pi;
-    line.axis = [](double s) { return Placement{rot_y(-s / 4), {4 * std::sin(s / 4), 0, 4 * (1 - std::cos(s / 4))}}; };
+    line.axis = ReferenceLine::curve([](double s) { return Vec3(4 * std::sin(s / 4), 0, 4 * (1 - std::cos(s / 4))); },
+                                     [](double s) { return Vec3(std::cos(s / 4), 0, std::sin(s / 4)); }, 0, 2 * pi);
     for (const Partition partition : both_partitions) {
         const ElementLine on(line, 1, 5);
         const ElementInertia e = partition_element(on, delta_gauss, partition),

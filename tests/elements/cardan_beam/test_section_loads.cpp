@@ -1,7 +1,7 @@
 // Section loads against statics, against centrifugal force and against each other. Oracles: equilibrium of the free
 // body, by hand.
 #include "elements/cardan_beam/distributed_load.hpp"
-#include "elements/sections/reference_line.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/entry.hpp"
 #include "tests/elements/cardan_beam/loaded_beam.hpp"
 #include "tests/support/refusal.hpp"

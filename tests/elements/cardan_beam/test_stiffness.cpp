@@ -1,6 +1,6 @@
 // The elastic law of the element: what test_flexibility.cpp leaves out.
 #include "elements/cardan_beam/cardan_beam.hpp"
-#include "elements/sections/reference_line.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/model/summary.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"

@@ -1,6 +1,6 @@
 // Curves in space by arc length, and the frames carried along them.
 #include "elements/cardan_beam/element_line.hpp"
-#include "elements/sections/reference_line.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"

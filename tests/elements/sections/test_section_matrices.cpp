@@ -1,7 +1,7 @@
 // Sections given by 6 x 6 matrices: conversion, other axes and reference points, engineering constants, the beam made
 // from them, and matrices that must be refused.
 #include "elements/cardan_beam/cardan_beam.hpp"
-#include "elements/sections/section_matrices.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "solvers/linear/linearise.hpp"
 #include "tests/oracles/quadrature.hpp"

@@ -1,5 +1,5 @@
 // Cross sections: compliance and inertia in beam axes, tables of stations, tubes.
-#include "elements/sections/section.hpp"
+#include "elements/sections/tube.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
@@ -114,9 +114,9 @@ TEST_CASE("section table: every column is kept at the stations and linear betwee
     b.j_flap = 2;
     a.GA_y = b.GA_y = infinite;
     for (const Interpolation kind : {Interpolation::linear, Interpolation::log_linear_stiffness}) {
-        const SectionTable table("blade", {1, 3, 7}, {a, b, a}, kind);
+        const BeamTable table{"blade", {1, 3, 7}, {a, b, a}, kind};
         for (const auto& [x, part] : {std::pair{1.0, 0.0}, {2.0, 0.5}, {3.0, 1.0}, {6.0, 0.25}, {7.0, 0.0}}) {
-            const EngineeringSection s = table.at(x);
+            const EngineeringSection s = table.constants(x);
             CHECK(s.mass == Approx(120 - 60 * part).epsilon(1e-14));
             CHECK(s.mass_centre.y == Approx(-0.4 * part).epsilon(1e-14));
             CHECK(s.mass_centre.z == Approx(0.2 * part).epsilon(1e-14));
@@ -133,7 +133,7 @@ TEST_CASE("section table: every column is kept at the stations and linear betwee
 TEST_CASE("section table: its beam line counts from the first station", "[property]") {
     EngineeringSection a = some_section(), b = some_section();
     b.mass = 60;
-    const BeamLine line = SectionTable("blade", {1, 3, 7}, {a, b, b}, Interpolation::linear).line();
+    const BeamLine line = beam_line({"blade", {1, 3, 7}, {a, b, b}});
     CHECK(line.length == 6);
     CHECK(line.breaks == std::vector<double>{0, 2, 6});
     CHECK(line.name == "blade");

@@ -38,10 +38,10 @@ BeamLine general_blade_line() {
         x.push_back(station.x);
         sections.push_back(s);
     }
-    const SectionTable table("general blade", x, sections, Interpolation::log_linear_stiffness);
-    BeamLine line = table.line();
+    const BeamTable table{"general blade", x, sections, Interpolation::log_linear_stiffness};
+    BeamLine line = beam_line(table);
     line.section = [table](double at) {
-        EngineeringSection s = table.at(at);
+        EngineeringSection s = table.constants(at);
         const double polar = s.j_edge;
         s.j_edge = polar * s.EI_edge / (s.EI_edge + s.EI_flap);
         s.j_flap = polar - s.j_edge;
@@ -189,7 +189,7 @@ TEST_CASE("assumed modes: what the theory does not cover is refused", "[property
     check_refused(with([](auto&, auto& o) { o.basis.breaks = {0, 0.7, 0.7, 1}; }), {"mast", "end 3", "= 0.7"});
     check_refused(with([](auto&, auto& o) { o.basis.breaks = {0, 0.9}; }), {"mast", "end 2", "= 0.9", "length, 1"});
     BeamLine curved = uniform_beam(1, slender(), "mast");
-    curved.axis = [](double x) { return Placement::translation({x, x * x, 0}); };
+    curved.axis = ReferenceLine::through({{0, 0, 0}, {0.5, 0.1, 0}, {1, 0.3, 0}}, LineShape::polyline);
     check_refused([&] { (void)AssumedModesBlade(curved); }, {"mast", "straight"});
 
     const AssumedModesBlade beam(uniform_beam(1, slender()), {.basis = one_piece(3)});

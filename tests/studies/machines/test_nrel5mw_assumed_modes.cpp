@@ -205,10 +205,10 @@ Variant log_linear_variant() {
         s.j_edge = polar;
         sections.push_back(s);
     }
-    const SectionTable table("NREL 5 MW blade, log-linear", x, sections, Interpolation::log_linear_stiffness);
-    v.line = table.line();
+    const BeamTable table{"NREL 5 MW blade, log-linear", x, sections, Interpolation::log_linear_stiffness};
+    v.line = beam_line(table);
     v.line.section = [table](double at) {
-        EngineeringSection s = table.at(at);
+        EngineeringSection s = table.constants(at);
         const double polar = s.j_edge;
         s.j_edge = polar * s.EI_edge / (s.EI_edge + s.EI_flap);
         s.j_flap = polar - s.j_edge;

@@ -300,7 +300,7 @@ TEST_CASE("machine variants: a rigid tower needs neither stiffness nor damping, 
         CHECK(other->system().model.mass() == plain.system().model.mass());
     }
     // A line alone, without sections: a massless stand.
-    const Turbine stand = rigid([](D& d) { d.tower.line.section = nullptr; });
+    const Turbine stand = rigid([](D& d) { d.tower.line.section = {}; });
     check_close(frequencies(stand, 0), frequencies(plain, 0), 1e-12);
     check_description_refused([](D& d) { d.tower.rigid = true, d.tower.first_mode_damping = -1; },
                               {"tower.first_mode_damping = -1"});

@@ -1,11 +1,11 @@
 // A mass at the tip of a blade: the frequencies of a uniform cantilever that carries one, its weight in the machine,
 // files.
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/model/summary.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "turbines/machines/wt600.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/yaml/description.hpp"
 
 #include <cmath>

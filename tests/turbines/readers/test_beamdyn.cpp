@@ -1,8 +1,8 @@
 // BeamDyn files: matrices, axes, twist, curved lines, damping.
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/readers/beamdyn.hpp"
 
 using namespace cardan;
@@ -149,7 +149,7 @@ TEST_CASE("beamdyn: on a curved line stations count arc length and untwisted axe
     CHECK(line.length == Approx(chords).epsilon(1e-3));
     CHECK((line.pose(line.length).p - Vec3(10, -0.5, -0.8)).norm() <
           1e-9);  // prebend upwind, sweep to the trailing edge
-    const BeamTable* table = table_of(line);
+    const BeamTable* table = line.section.table();
     REQUIRE(table != nullptr);
     for (std::size_t i = 0; i < table->stations.size(); ++i) {
         const Mat3 R = line.pose(table->stations[i]).R * rot_x(table->beta[i]);

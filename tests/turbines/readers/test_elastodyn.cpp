@@ -1,11 +1,11 @@
 // ElastoDyn files: numbers, signs, frames, factors, notes.
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
 #include "turbines/machines/nrel5mw_blade.hpp"
 #include "turbines/model/assembly.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/readers/elastodyn.hpp"
 #include "turbines/tables/csv.hpp"
 #include "turbines/tables/detail/embedded_data.hpp"
@@ -108,7 +108,7 @@ TEST_CASE("elastodyn: figures of the main file in the frames and units of the li
 TEST_CASE("elastodyn: factors multiply the distributed properties; twist is against the angle of the section",
           "[analytic]") {
     const TurbineFile file = read_elastodyn(test::data_file("openfast/small_ElastoDyn.dat"));
-    const BeamTable* blade = table_of(file.description.blade.line);
+    const BeamTable* blade = file.description.blade.line.section.table();
     REQUIRE(blade != nullptr);
     CHECK(blade->stations == std::vector<double>{0, 0.5, 2, 5, 8, 10});
     const EngineeringSection& s = blade->sections[2];  // 40 kg/m, 1.5e7, 2.8e7 N m^2, 10 degrees
@@ -118,7 +118,7 @@ TEST_CASE("elastodyn: factors multiply the distributed properties; twist is agai
     CHECK(s.beta == Approx(-10 * degree).epsilon(1e-15));
     CHECK(std::isinf(s.GJ));
     CHECK(std::isinf(s.EA));
-    const BeamTable* tower = table_of(file.description.tower.line);
+    const BeamTable* tower = file.description.tower.line.section.table();
     REQUIRE(tower != nullptr);
     CHECK(tower->stations == std::vector<double>{0, 0.4 * 24, 0.7 * 24, 24});
     // Beam axes of the tower: y downwind; fore-aft is bending about z.

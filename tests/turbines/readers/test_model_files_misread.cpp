@@ -1,9 +1,9 @@
 // What is easily misread in models of other programs: signs, units, entries deep in the files, parts that do not span
 // the whole. Every case gives the right machine, a note or an error, never another machine in silence.
+#include "elements/sections/beam_line.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
 #include "turbines/model/assembly.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/readers/elastodyn.hpp"
 #include "turbines/yaml/windio.hpp"
 
@@ -246,9 +246,9 @@ TEST_CASE("windio: grids of tower and axis span the whole, and all their places 
             "small_v2.yaml", "y: {grid: [0.0, 1.0], values: [0.0, 0.0]}",
             "y: {grid: [0.0, 0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0], values: [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]}")
             .description.blade.line;
-    const BeamTable* table = table_of(fine);
+    const BeamTable* table = fine.section.table();
     REQUIRE(table != nullptr);
-    for (const Vec3& p : table_of(plain)->points)
+    for (const Vec3& p : plain.section.table()->points)
         CHECK(std::any_of(table->points.begin(), table->points.end(),
                           [&](const Vec3& q) { return (p - q).norm() < 1e-14; }));
 }

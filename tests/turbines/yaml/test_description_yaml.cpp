@@ -1,4 +1,5 @@
 // Our own YAML: what is written is read again bit for bit, and nothing else is read.
+#include "elements/sections/tube.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
 #include "turbines/machines/nrel5mw_platform.hpp"
@@ -6,7 +7,6 @@
 #include "turbines/machines/teetered.hpp"
 #include "turbines/machines/wt600.hpp"
 #include "turbines/model/assembly.hpp"
-#include "turbines/model/beam_table.hpp"
 
 using namespace cardan;
 using namespace cardan::turbines;

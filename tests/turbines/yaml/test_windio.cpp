@@ -1,10 +1,10 @@
 // windIO files of both versions.
+#include "elements/sections/tube.hpp"
 #include "mbs/base/units.hpp"
 #include "mbs/kernels/kinematics.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
 #include "turbines/model/assembly.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/readers/beamdyn.hpp"
 #include "turbines/yaml/description.hpp"
 #include "turbines/yaml/windio.hpp"
@@ -305,7 +305,7 @@ TEST_CASE("windio: matrices of the tower, where given, are read instead of its l
 TEST_CASE("windio: the blade is that of a BeamDyn file with the same figures", "[crosscheck]") {
     const test::ModelFolder model("openfast");
     const BeamLine windio = read_windio(test::data_file("windio/small_v2.yaml")).description.blade.line;
-    const BeamTable* table = table_of(windio);
+    const BeamTable* table = windio.section.table();
     REQUIRE(table != nullptr);
     // Without sweep and couplings the file of the tests has the same line and the same masses.
     std::string main = test::bytes_of(model / "small_BeamDyn.dat");

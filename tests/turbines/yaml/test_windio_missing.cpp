@@ -2,11 +2,11 @@
 // components.
 //
 // References: frequencies of uniform cantilevers (Euler and Bernoulli); the same machine with all that it has.
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
 #include "turbines/model/assembly.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/yaml/windio.hpp"
 
 using namespace cardan;

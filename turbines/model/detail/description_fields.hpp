@@ -2,8 +2,8 @@
 /// The fields of a description, listed once for both writing and reading. Internal to description_yaml: not installed.
 #pragma once
 
+#include "elements/sections/beam_line.hpp"
 #include "mbs/base/entry.hpp"
-#include "turbines/model/beam_table.hpp"
 #include "turbines/model/description.hpp"
 
 #include <array>

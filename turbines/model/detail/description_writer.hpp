@@ -148,7 +148,7 @@ public:
         });
     }
     void line(const char* key, const BeamLine& l) {
-        if (const BeamTable* table = table_of(l)) {
+        if (const BeamTable* table = l.section.table()) {
             group(key, [&] { fields(*table); });
         } else if (lines_ == BeamLines::near) {
             sampled_line(key, l);

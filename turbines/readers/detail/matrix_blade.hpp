@@ -2,7 +2,7 @@
 /// Blades given by 6 x 6 matrices in BeamDyn's axes, as in BeamDyn and windIO.
 #pragma once
 
-#include "turbines/model/beam_table.hpp"
+#include "elements/sections/beam_line.hpp"
 
 namespace cardan::turbines {
 

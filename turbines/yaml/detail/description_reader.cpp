@@ -52,6 +52,8 @@ BeamTable DescriptionReader::table(YamlLevel level) {
     BeamTable t;
     t.name = level["name"].word();
     t.stations = level["stations"].numbers();
+    if (!t.stations.empty() && t.stations.front() != 0)
+        throw InputError(t.name, "first station [m]", t.stations.front(), "0");
     if (const auto given = level.find("sections")) {
         t.interpolation = choice(level["interpolation"], {Interpolation::linear, Interpolation::log_linear_stiffness});
         t.sections = sections(*given, t.stations.size());

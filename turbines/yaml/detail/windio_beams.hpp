@@ -2,7 +2,7 @@
 /// Blade and tower of a windIO file. Internal to windio: not installed.
 #pragma once
 
-#include "turbines/model/beam_table.hpp"
+#include "elements/sections/beam_line.hpp"
 #include "turbines/yaml/detail/windio_file.hpp"
 
 namespace cardan::turbines {

@@ -245,11 +245,11 @@ Variant log_linear_variant() {
         x.push_back(c.at(1) - 1.5);
         sections.push_back(s);
     }
-    const SectionTable table("NREL 5 MW blade, log-linear", x, sections, Interpolation::log_linear_stiffness);
+    const BeamTable table{"NREL 5 MW blade, log-linear", x, sections, Interpolation::log_linear_stiffness};
     v.blade = nrel5mw_blade();
-    v.blade.line = table.line();
+    v.blade.line = beam_line(table);
     v.blade.line.section = [table](double at) {
-        EngineeringSection s = table.at(at);
+        EngineeringSection s = table.constants(at);
         const double polar = s.j_edge;
         s.j_edge = polar * s.EI_edge / (s.EI_edge + s.EI_flap);
         s.j_flap = polar - s.j_edge;

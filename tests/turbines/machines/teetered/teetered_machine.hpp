@@ -2,18 +2,18 @@
 /// The two-bladed teetered machine of Lee, Hodges and Patil (2002) as its tests have it.
 #pragma once
 
+#include "elements/sections/beam_line.hpp"
 #include "turbines/machines/teetered.hpp"
-#include "turbines/model/beam_table.hpp"
 
 namespace cardan::testing {
 
 /// The section of its uniform tower or blade.
 inline EngineeringSection section_of(const BeamLine& line) {
-    return turbines::table_of(line)->sections.front();
+    return line.section.table()->sections.front();
 }
 template <class Change>
 void change_section(BeamLine& line, const Change& change) {
-    turbines::BeamTable table = *turbines::table_of(line);
+    BeamTable table = *line.section.table();
     for (EngineeringSection& section : table.sections) change(section);
     line = turbines::beam_line(table);
 }
