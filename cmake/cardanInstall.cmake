@@ -26,6 +26,9 @@ endif()
 # All headers but those in detail/, which are the inside of the libraries.
 install(DIRECTORY mbs elements turbines solvers DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan
         FILES_MATCHING PATTERN "*.hpp" PATTERN "detail" EXCLUDE PATTERN "data" EXCLUDE)
+foreach(component IN LISTS CARDAN_COMPONENTS)
+    install(FILES ${PROJECT_BINARY_DIR}/generated/include/cardan/${component}.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan)
+endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/generated/mbs/base/version.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan/mbs/base)
 
 file(GLOB data CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/turbines/data/*.csv)

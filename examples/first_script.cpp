@@ -1,8 +1,7 @@
 // The script of the README: a Campbell diagram in a few lines, and what happens with a stiffer yaw drive.
-#include <cardan/mbs/base/error.hpp>
-#include <cardan/solvers/hdf5/campbell.hpp>
-#include <cardan/solvers/pictures/campbell.hpp>
-#include <cardan/turbines/machines/wt600.hpp>
+#include <cardan/hdf5.hpp>
+#include <cardan/pictures.hpp>
+#include <cardan/turbines.hpp>
 
 #include <iostream>
 

@@ -1,13 +1,12 @@
 // Uses the installed headers and libraries as a stranger would: a description is changed, modes are computed, a file
 // and a picture are written.
-#include <cardan/mbs/base/error.hpp>
-#include <cardan/mbs/base/version.hpp>
-#include <cardan/mbs/batch/batch.hpp>
-#include <cardan/solvers/control/state_space.hpp>
-#include <cardan/solvers/hdf5/campbell.hpp>
-#include <cardan/solvers/matlab/state_space.hpp>
-#include <cardan/solvers/pictures/campbell.hpp>
-#include <cardan/turbines/machines/wt600.hpp>
+#include <cardan/batch.hpp>
+#include <cardan/hdf5.hpp>
+#include <cardan/matlab.hpp>
+#include <cardan/mbs.hpp>
+#include <cardan/pictures.hpp>
+#include <cardan/solvers.hpp>
+#include <cardan/turbines.hpp>
 
 #include <cmath>
 #include <iostream>
