@@ -2,7 +2,7 @@
 /// Air on a rotor that does not bend: loads at an instant, tables of its coefficients.
 #pragma once
 
-#include "elements/aerodynamics/blade_section.hpp"
+#include "elements/aerodynamics/section_air.hpp"
 #include "elements/aerodynamics/wind.hpp"
 
 #include <vector>

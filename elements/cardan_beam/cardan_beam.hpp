@@ -12,8 +12,8 @@
 
 #include "elements/cardan_beam/damping.hpp"
 #include "elements/cardan_beam/hinge_law.hpp"
+#include "elements/cardan_beam/joint_stiffness.hpp"
 #include "elements/cardan_beam/partition.hpp"
-#include "elements/cardan_beam/timoshenko.hpp"
 #include "elements/machine/joints.hpp"
 #include "mbs/system/forces.hpp"
 

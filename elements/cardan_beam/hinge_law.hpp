@@ -3,7 +3,7 @@
 /// elongation under shear.
 #pragma once
 
-#include "elements/cardan_beam/timoshenko.hpp"
+#include "elements/cardan_beam/joint_stiffness.hpp"
 #include "mbs/system/forces.hpp"
 
 namespace cardan {

@@ -1,7 +1,7 @@
 /// @file Distribution of the mass of a beam element over its four rigid bodies.
 #pragma once
 
-#include "elements/cardan_beam/timoshenko.hpp"
+#include "elements/cardan_beam/joint_stiffness.hpp"
 #include "mbs/model/inertia.hpp"
 
 #include <array>

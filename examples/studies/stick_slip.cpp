@@ -4,7 +4,7 @@
 // independent program. Picture: stick_slip.svg.
 #include "solvers/time/stick_slip.hpp"
 
-#include "elements/machine/contact.hpp"
+#include "elements/machine/friction.hpp"
 #include "elements/machine/joints.hpp"
 #include "examples/studies/study.hpp"
 #include "solvers/pictures/history.hpp"

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "solvers/campbell/diagram.hpp"
-#include "solvers/equilibrium/buckling.hpp"
+#include "solvers/equilibrium/load_stability.hpp"
 
 #include <functional>
 #include <string>

@@ -4,6 +4,7 @@
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/equilibrium/buckling.hpp"
 #include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/load_stability.hpp"
 #include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"
 #include "solvers/periodic/forced_response.hpp"

@@ -2,8 +2,8 @@
 /// Induction of a section with its derivatives. Internal to aerodynamics: not installed.
 #pragma once
 
-#include "elements/aerodynamics/blade_section.hpp"
 #include "elements/aerodynamics/detail/balance.hpp"
+#include "elements/aerodynamics/section_air.hpp"
 
 namespace cardan {
 

@@ -1,6 +1,6 @@
 #include "elements/cardan_beam/detail/compliance_hinges.hpp"
 
-#include "elements/cardan_beam/timoshenko.hpp"
+#include "elements/cardan_beam/joint_stiffness.hpp"
 
 namespace cardan {
 

@@ -1,6 +1,6 @@
 #include "elements/cardan_beam/detail/tilted_masses.hpp"
 
-#include "elements/cardan_beam/timoshenko.hpp"
+#include "elements/cardan_beam/joint_stiffness.hpp"
 #include "mbs/base/decompositions.hpp"
 
 namespace cardan {

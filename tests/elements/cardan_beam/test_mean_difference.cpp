@@ -1,7 +1,7 @@
 // The mean-difference partition in one plane and the hinges of elements that follow their compliance. Check values:
 // docs/partitions.md, another implementation of the same formulas.
 #include "elements/cardan_beam/detail/mean_difference.hpp"
-#include "elements/cardan_beam/timoshenko.hpp"
+#include "elements/cardan_beam/joint_stiffness.hpp"
 #include "tests/oracles/wt600_stations.hpp"
 #include "tests/support/catch.hpp"
 

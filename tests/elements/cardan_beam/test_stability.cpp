@@ -2,6 +2,7 @@
 // the same formulas (docs/verification.md), exact ones are analytic (tests/oracles).
 #include "solvers/equilibrium/buckling.hpp"
 #include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/load_stability.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/beck_column.hpp"
 #include "tests/oracles/column_buckling.hpp"

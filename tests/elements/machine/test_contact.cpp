@@ -1,5 +1,6 @@
 // Contact and friction: bounces in closed form, a stick-slip oscillator.
 #include "elements/machine/contact.hpp"
+#include "elements/machine/friction.hpp"
 #include "solvers/time/stick_slip.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"

@@ -1,6 +1,7 @@
 // Buckling and flutter of few degrees of freedom against closed forms.
 #include "mbs/base/error.hpp"
 #include "solvers/equilibrium/buckling.hpp"
+#include "solvers/equilibrium/load_stability.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tree_tools.hpp"

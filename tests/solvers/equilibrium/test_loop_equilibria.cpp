@@ -3,6 +3,7 @@
 #include "solvers/equilibrium/buckling.hpp"
 #include "solvers/equilibrium/load_curve.hpp"
 #include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/load_stability.hpp"
 #include "solvers/equilibrium/natural_modes.hpp"
 #include "solvers/linear/loop_reduction.hpp"
 #include "tests/mbs/loops/closed_trees.hpp"

@@ -3,7 +3,7 @@
 /// installed.
 #pragma once
 
-#include "elements/aerodynamics/lagging_section.hpp"
+#include "elements/aerodynamics/lagging_air.hpp"
 #include "turbines/aerodynamics/detail/air_blade.hpp"
 #include "turbines/aerodynamics/detail/air_tower.hpp"
 #include "turbines/aerodynamics/detail/body_motion.hpp"

@@ -1,5 +1,5 @@
 // Sections whose air lags: derivatives against differences; where the states come to rest.
-#include "elements/aerodynamics/lagging_section.hpp"
+#include "elements/aerodynamics/lagging_air.hpp"
 #include "mbs/base/types.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"

@@ -1,4 +1,4 @@
-#include "elements/aerodynamics/lagging_section.hpp"
+#include "elements/aerodynamics/lagging_air.hpp"
 
 #include "elements/aerodynamics/detail/section_factors.hpp"
 

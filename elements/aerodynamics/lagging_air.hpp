@@ -2,9 +2,9 @@
 /// Air on one section of a blade that lags behind its motion: induction, airfoil, or both, with derivatives.
 #pragma once
 
-#include "elements/aerodynamics/blade_section.hpp"
 #include "elements/aerodynamics/dynamic_inflow.hpp"
-#include "elements/aerodynamics/unsteady_airfoil.hpp"
+#include "elements/aerodynamics/section_air.hpp"
+#include "elements/aerodynamics/unsteady_profile.hpp"
 
 #include <Eigen/Core>
 

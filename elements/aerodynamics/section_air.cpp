@@ -1,4 +1,4 @@
-#include "elements/aerodynamics/blade_section.hpp"
+#include "elements/aerodynamics/section_air.hpp"
 
 #include "elements/aerodynamics/detail/section_factors.hpp"
 #include "mbs/base/elementary.hpp"
@@ -30,8 +30,8 @@ SectionAir section_air(const Induction& balance, const Annulus& annulus, double 
 }
 
 InductionShare induction_share(double tip_speed, double wind) {
-    constexpr double min_wind = 0.1;  // m/s
-    const double square = wind * wind + min_wind * min_wind, size = std::sqrt(square),
+    constexpr double calm = 0.1;  // m/s
+    const double square = wind * wind + calm * calm, size = std::sqrt(square),
                  ratio = std::abs(tip_speed) / size;
     if (ratio <= 1) return {.value = 0};
     if (ratio >= 2) return {};

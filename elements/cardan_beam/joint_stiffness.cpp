@@ -1,4 +1,4 @@
-#include "elements/cardan_beam/timoshenko.hpp"
+#include "elements/cardan_beam/joint_stiffness.hpp"
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"

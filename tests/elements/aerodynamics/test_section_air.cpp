@@ -1,5 +1,5 @@
 // Derivatives of what the air does to a section, against differences of the same; the wind's slope.
-#include "elements/aerodynamics/blade_section.hpp"
+#include "elements/aerodynamics/section_air.hpp"
 #include "elements/aerodynamics/wind.hpp"
 #include "mbs/base/types.hpp"
 #include "tests/support/catch.hpp"
