@@ -1,5 +1,6 @@
 // Beams that must be refused: what, where, the value, what is allowed.
 #include "elements/cardan_beam/cardan_beam.hpp"
+#include "elements/sections/tube.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"

@@ -1,5 +1,6 @@
 #include "examples/studies/urdf_arm/tube.hpp"
 
+#include "elements/sections/tube.hpp"
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
