@@ -1,5 +1,6 @@
 #include "mbs/geometry/embedding.hpp"
 
+#include "mbs/base/error.hpp"
 #include "mbs/kernels/composites.hpp"
 
 namespace cardan {
@@ -26,6 +27,9 @@ void require_field(const char* what, const AccelerationField& field, std::size_t
 }  // namespace
 
 Embedding::Embedding(const Model& model) : model_(&model) {
+    if (!model.added_masses().empty())
+        throw InputError("embedding", "bodies with added mass", model.added_masses().size(),
+                         "0: their metric is not that of mass points");
     const std::size_t n = static_cast<std::size_t>(model.size());
     binet_.resize(n);
     for (auto* v : {&alpha_, &F_, &N_, &X_, &places_.e, &places_.o, &places_.r}) v->resize(n);

@@ -3,6 +3,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/composites.hpp"
+#include "mbs/kernels/detail/added_mass.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
 #include <algorithm>
@@ -132,6 +133,24 @@ CARDAN_VECTORISED void fill(int n, const Model::Link* links, const Workspace::Fr
     }
 }
 
+// K(a, b) = S_a . B S_b, where B belongs to the subtree of m and to the twist of m.
+void add_added_mass_symbols(const Kinematics& kin, const Christoffel& gamma, Packed3<double>* values,
+                            const std::size_t* offset) {
+    const Workspace& ws = kin.workspace();
+    for (const Workspace::Entraining& at : ws.entraining) {
+        const int m = at.body;
+        const Vec3 o = entry(ws.frame, m).o.vector();
+        const Mat6 B = coriolis_inertia<double>(at.I, twist_column(kin, m, o));
+        const std::span<const int> path = gamma.path(m);
+        double* const K = numbers(values + offset[m]);
+        for (std::size_t b = 0; b < path.size(); ++b) {
+            const Vec6 force = B * twist_column(kin, path[b], o);
+            for (std::size_t a = 0; a + 1 < path.size(); ++a)  // zero for a = m
+                K[a * gamma.stride(m) + b] += work<double>(twist_column(kin, path[a], o), force);
+        }
+    }
+}
+
 }  // namespace
 
 void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma) {
@@ -141,6 +160,7 @@ void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma) {
     const Model& model = kin.model();
     fill(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
          PathTwists<double>(ws.branch.data(), ws.stride), gamma.values_.data(), gamma.value_offset_.data());
+    add_added_mass_symbols(kin, gamma, gamma.values_.data(), gamma.value_offset_.data());
 }
 
 }  // namespace cardan

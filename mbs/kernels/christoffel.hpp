@@ -65,7 +65,8 @@ private:
 ///
 ///     Gamma_abc = (1 - s_b) sum_k { m_k u_ka . (Omega_kb x u_kc) + (P_k Omega_kb) . (Omega_kc x Omega_ka) },  b <= c,
 ///
-/// collapses over k to the composite body of the more distal of a and c, referred to its centre of mass.
+/// collapses over k to the composite body of the more distal of a and c, referred to its centre of mass. Added mass
+/// adds (S_a . (S_m x* I S_b) + S_a . I (S_b x S_m) + S_a . (S_b x* I S_m)) / 2 to K_m(a, b), S being twists.
 ///                                                   [Zhao et al. 2007, eq. 9, corrected: see docs/theory.md]
 void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma);
 

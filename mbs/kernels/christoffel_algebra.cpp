@@ -1,6 +1,7 @@
 // Contractions of the Christoffel symbols.
 #include "mbs/base/entry.hpp"
 #include "mbs/kernels/christoffel.hpp"
+#include "mbs/kernels/detail/added_mass.hpp"
 #include "mbs/kernels/metric.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
@@ -91,6 +92,30 @@ S product(const PointTwist<S>& a, const PointTwist<S>& wrench) {
     return dot<S>(a.v, wrench.v) + dot<S>(a.w, wrench.w);
 }
 
+// The same of added mass, K_m(a, b) = S_a . B S_b.
+template <class S>
+void add_added_mass_along(const KinematicsT<S>& kin, int s, MatrixOutT<S>& X) {
+    const Model& model = kin.model();
+    for (const auto& at : kin.workspace().entraining) {
+        const int m = at.body;
+        if (!model.precedes(s, m)) continue;
+        const Vec3T<S> o = entry(kin.workspace().frame, m).o.vector();
+        const Mat6T<S> B = coriolis_inertia<S>(at.I, twist_column(kin, m, o));
+        const Vec6T<S> spin = twist_column(kin, s, o), column = B * spin, row = B.transpose() * spin;
+        for (int a = own_parent(model, m); a >= 0; a = own_parent(model, a)) {
+            const Vec6T<S> twist = twist_column(kin, a, o);
+            if (m == s) {
+                for (int b = s; b >= 0; b = own_parent(model, b))
+                    X(a, b) += work<S>(twist, B * twist_column(kin, b, o));
+                continue;
+            }
+            const S K_as = work<S>(twist, column);
+            X(a, m) += K_as;
+            X(m, a) -= a <= s ? work<S>(twist, row) : K_as;
+        }
+    }
+}
+
 }  // namespace
 
 template <class S>
@@ -117,6 +142,7 @@ void christoffel_along(const KinematicsT<S>& kin, int s, MatrixOutT<S> X) {
             X(m, a) = a <= s ? S(-dot<S>(t.w, row)) : S(-K_as);  // Gamma_mas = -K_m(s, a) or -K_m(a, s)
         }
     }
+    add_added_mass_along(kin, s, X);
 }
 
 void gyroscopic_matrix(const Kinematics& kin, int s, double omega, MatrixOut G) {

@@ -18,8 +18,9 @@ struct ChristoffelSymbol {
 /// All symbols Gamma_abc with b <= c of a tree that do not vanish for every q, each exactly once, a anywhere.
 ///
 /// Structural zeros are skipped: a, b and c not on one path; b prismatic, where b is the one of b and c nearer the
-/// base; a = c (Gamma_cbc is half the derivative of g_cc by a joint that carries c). A symbol that is zero only at this
-/// q is visited. The order is that of the table: by the most distal of the three, then by row.
+/// base, unless the most distal of the three carries added mass; a = c (Gamma_cbc is half the derivative of g_cc by a
+/// joint that carries c). A symbol that is zero only at this q is visited. The order is that of the table: by the most
+/// distal of the three, then by row.
 ///
 /// A forward range of values, valid as long as the Christoffel object; the values are those at the time of reading.
 class ChristoffelSymbols {
@@ -68,6 +69,7 @@ public:
             if (m_ >= gamma_->model().size()) return;
             path_ = gamma_->path(m_);
             table_ = gamma_->table(m_);
+            entrains_ = gamma_->model().entrains(m_);
         }
         // Advances to the next entry that is not a structural zero, possibly the present one.
         void settle() {
@@ -75,7 +77,7 @@ public:
             while (m_ < model.size()) {
                 for (; row_ + 1 < path_.size(); ++row_, column_ = 0)
                     for (; column_ < path_.size(); ++column_)
-                        if (model.body(path_[column_]).revolute) return;
+                        if (entrains_ || model.body(path_[column_]).revolute) return;
                 ++m_;
                 enter();
             }
@@ -86,7 +88,7 @@ public:
         std::span<const double> table_ = {};
         int m_ = 0;
         std::size_t row_ = 0, column_ = 0;
-        bool mirrored_ = false;
+        bool mirrored_ = false, entrains_ = false;
     };
 
     explicit ChristoffelSymbols(const Christoffel& gamma) : gamma_(&gamma) {}

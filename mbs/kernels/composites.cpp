@@ -1,5 +1,7 @@
 #include "mbs/kernels/composites.hpp"
 
+#include "mbs/kernels/detail/added_mass.hpp"
+
 namespace cardan {
 
 namespace {
@@ -104,6 +106,7 @@ void composites(const KinematicsT<S>& kin) {
     body_inertias(kin);
     const Model& model = kin.model();
     run_merge(model.size(), model.links().data(), ws.frame.data(), ws.J.data(), ws.composite.data());
+    gather_added_mass(kin);
     ws.centre_generation = ws.composite_generation = ws.generation;
 }
 

@@ -14,7 +14,8 @@ void body_inertias(const KinematicsT<S>& kin);
 template <class S>
 void subtree_centres(const KinematicsT<S>& kin);
 
-/// Subtrees as composite rigid bodies (mass, centre, Binet tensor about the centre), tip to base. Idempotent per q.
+/// Subtrees as composite rigid bodies (mass, centre, Binet tensor about the centre), tip to base, and their added mass.
+/// Idempotent per q.
 template <class S>
 void composites(const KinematicsT<S>& kin);
 

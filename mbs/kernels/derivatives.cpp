@@ -2,6 +2,7 @@
 #include "mbs/kernels/derivatives.hpp"
 
 #include "mbs/kernels/composites.hpp"
+#include "mbs/kernels/detail/added_mass.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
 namespace cardan {
@@ -209,6 +210,56 @@ Arguments arguments(const Kinematics& kin, VectorIn qd, VectorIn qdd) {
             qd.data(),          qdd.data()};
 }
 
+Vec6 column(const Packed3<double>& angular, const Packed3<double>& linear) {
+    return (Vec6() << angular.vector(), linear.vector()).finished();
+}
+
+// What added mass adds, after the rest. With I, B and f of the subtree of m, S the twists:
+//   row m:     S_m . (I Psi''_j + 2 B Psi'_j)                  2 S_m . (I Psi'_j + B S_j)
+//   column m:  S_j . (I Psi''_m + 2 B Psi'_m + S_m x* f)       2 S_j . (I Psi'_m + B S_m)
+template <class Add>
+void add_added_mass_derivatives(const Kinematics& kin, const Add& by_q, const Add& by_qd) {
+    Workspace& ws = kin.workspace();
+    for (Workspace::Entraining& at : ws.entraining) {
+        at.B.setZero();
+        at.f.setZero();
+        if (at.own < 0) continue;
+        const Workspace::Motion& motion = entry(ws.motion, at.body);
+        const Mat6 I = own_added_mass(kin, entry(kin.model().added_masses(), at.own));
+        at.B = coriolis_inertia<double>(I, twist_column<double>(motion));
+        at.f = added_mass_force<double>(I, motion);
+    }
+    for (std::size_t i = ws.entraining.size(); i-- > 0;) {
+        const Workspace::Entraining& at = ws.entraining[i];
+        const int m = at.body;
+        const Packed3<double> o = entry(ws.frame, m).o;
+        if (at.parent >= 0) {
+            Workspace::Entraining& parent = entry(ws.entraining, at.parent);
+            const Mat6 X = twist_shift<double>((o - entry(ws.frame, parent.body).o).vector());
+            parent.B += X.transpose() * at.B * X;
+            parent.f += X.transpose() * at.f;
+        }
+        const Rates& own = entry(ws.rates, m);
+        const Vec6 S = twist_column<double>(kin, m, o.vector()), S1 = column(own.psi1_w, own.psi1_u),
+                   S2 = column(own.psi2_w, own.psi2_u);
+        const Vec6 row_I = at.I * S, row_B = 2 * (at.B.transpose() * S);
+        const Vec6 column_q = at.I * S2 + 2 * (at.B * S1) + carried<double>(S, at.f);
+        const Vec6 column_qd = 2 * (at.I * S1 + at.B * S);
+        for (int j = m; j >= 0; j = own_parent(kin.model(), j)) {
+            const Rates& rates = entry(ws.rates, j);
+            const Packed3<double> arm = o - entry(ws.frame, j).o;
+            const Vec6 T = twist_column<double>(kin, j, o.vector());
+            const Vec6 T1 = column(rates.psi1_w, rates.psi1_u + cross(rates.psi1_w, arm)),
+                       T2 = column(rates.psi2_w, rates.psi2_u + cross(rates.psi2_w, arm));
+            by_q(m, j, row_I.dot(T2) + row_B.dot(T1));
+            by_qd(m, j, 2 * row_I.dot(T1) + row_B.dot(T));
+            if (j == m) continue;
+            by_q(j, m, T.dot(column_q));
+            by_qd(j, m, T.dot(column_qd));
+        }
+    }
+}
+
 }  // namespace
 
 void inverse_dynamics_derivatives(const Kinematics& kin, VectorIn qd, VectorIn qdd, MatrixOut dtau_dq,
@@ -220,6 +271,8 @@ void inverse_dynamics_derivatives(const Kinematics& kin, VectorIn qd, VectorIn q
         return DenseSink<double>{x.links, x.n, A.data(), A.outerStride(), x.path.row(row), x.path.row(row + 1)};
     };
     run(x, sink(dtau_dq, scratch), sink(dtau_dqd, scratch + 2));
+    const auto add = [](MatrixOut& A) { return [&A](int a, int b, double value) { A(a, b) += value; }; };
+    add_added_mass_derivatives(kin, add(dtau_dq), add(dtau_dqd));
 }
 
 void inverse_dynamics_derivatives(const Kinematics& kin, VectorIn qd, VectorIn qdd, BranchMatrix& dtau_dq,
@@ -228,6 +281,8 @@ void inverse_dynamics_derivatives(const Kinematics& kin, VectorIn qd, VectorIn q
     require_model(in_derivatives, "matrix dtau_dqd", dtau_dqd.model().serial(), kin.model().serial());
     const auto sink = [](BranchMatrix& A) { return BranchSink{A.rows(), A.columns(), A.offset()}; };
     run(arguments(kin, qd, qdd), sink(dtau_dq), sink(dtau_dqd));
+    const auto add = [](BranchMatrix& A) { return [&A](int a, int b, double value) { A.add(a, b, value); }; };
+    add_added_mass_derivatives(kin, add(dtau_dq), add(dtau_dqd));
 }
 
 }  // namespace cardan

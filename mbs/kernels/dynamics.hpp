@@ -10,7 +10,8 @@
 
 namespace cardan {
 
-/// Inverse dynamics tau_a = g_ab qdd^b + Gamma_abc qd^b qd^c, armatures included.            [Zhao et al. 2007, eq. 4]
+/// Inverse dynamics tau_a = g_ab qdd^b + Gamma_abc qd^b qd^c, armatures and added mass included.
+///                                                                                        [Zhao et al. 2007, eq. 4]
 /// @param qd, qdd  joint rates and accelerations, size n
 /// @param tau      out, size n, N m or N; overwritten; must not alias the inputs
 ///
@@ -80,6 +81,11 @@ private:
         int body;
         int parent;  ///< on the path, -1: base
     };
+    /// Added mass of a body, blocks as in Articulated.
+    struct AddedMass {
+        int body;
+        Packed33<double> A, C, M;
+    };
     struct Arrays;
     static void factorise(const Arrays& arrays);
     static void backward(const Arrays& arrays, const double* Q, double* qdd, double* reaction);
@@ -95,6 +101,7 @@ private:
     const Model* model_;
     std::vector<char> driven_;  ///< no vector<bool>: the loops read it through a pointer
     std::vector<Articulated> articulated_;
+    std::vector<AddedMass> water_;
     Vector armature_diagonal_, residual_, correction_, reaction_;
     std::vector<int> support_;  ///< free coordinates in armatures of several coordinates
     Matrix coupling_;           ///< off-diagonal part of these armatures on the support

@@ -1,6 +1,7 @@
 // Plain twin: tests/mbs/kernels/plain_dynamics.hpp
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/kernels/detail/added_mass.hpp"
 #include "mbs/kernels/dynamics.hpp"
 
 #include <algorithm>
@@ -48,6 +49,7 @@ ForwardDynamics::ForwardDynamics(const Model& model, std::vector<bool> driven)
     armature_diagonal_.setZero(n);
     for (Vector* x : {&residual_, &correction_, &reaction_}) x->setZero(n);
     articulated_.resize(static_cast<std::size_t>(n));
+    water_.resize(model.added_masses().size());
     const auto& armatures = model.armatures();
     find_support(std::any_of(armatures.begin(), armatures.end(), [](auto& x) { return x.spin.size() > 1; }));
     find_path();
@@ -107,12 +109,20 @@ struct ForwardDynamics::Arrays {
     const Path* path;
     std::ptrdiff_t path_length;
     OnPath* on_path;
+    const AddedMass* water;
+    std::ptrdiff_t waters;
 
     // Articulated inertias, tip to base, deepest bodies first: those of parallel branches do not wait for each other.
     // The yield of a joint, U U^T / D, is taken away after the shift to the parent's joint origin, so that the division
     // goes on meanwhile.                                                              [Featherstone 2008, section 7.3]
     CARDAN_INLINE void factorise() const {
         for (std::ptrdiff_t k = 0; k < n; ++k) rigid(links[k], frame[k], J[k], body[k].A, body[k].C, body[k].M);
+        for (std::ptrdiff_t i = 0; i < waters; ++i) {
+            Articulated& own = body[water[i].body];
+            own.A += water[i].A;
+            own.C += water[i].C;
+            own.M += water[i].M;
+        }
         for (std::ptrdiff_t i = n - 1; i >= 0; --i) {
             const std::ptrdiff_t k = order[i];
             Articulated& own = body[k];
@@ -291,6 +301,13 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
     inverse_dynamics<double>(kin, qd, qdd, residual_);
     body_inertias(kin);
     residual_ = Q - residual_;
+    for (std::size_t i = 0; i < water_.size(); ++i) {
+        const Model::AddedMass& water = model_->added_masses()[i];
+        const Mat6 I = own_added_mass(kin, water);
+        using P33 = Packed33<double>;
+        water_[i] = {water.body, P33::of(Mat3(I.topLeftCorner<3, 3>())), P33::of(Mat3(I.bottomLeftCorner<3, 3>())),
+                     P33::of(Mat3(I.bottomRightCorner<3, 3>()))};
+    }
     const Arrays arrays{n,
                         model_->links().data(),
                         model_->by_depth().data(),
@@ -301,7 +318,9 @@ void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, Vect
                         articulated_.data(),
                         path_.data(),
                         std::ssize(path_),
-                        on_path_.data()};
+                        on_path_.data(),
+                        water_.data(),
+                        std::ssize(water_)};
     factorise(arrays);
     backward(arrays, residual_.data(), correction_.data(), reaction_.data());
     if (!support_.empty()) couple(arrays);

@@ -1,4 +1,5 @@
 // Plain twin: tests/mbs/kernels/plain_dynamics.hpp
+#include "mbs/kernels/detail/added_mass.hpp"
 #include "mbs/kernels/dynamics.hpp"
 
 namespace cardan {
@@ -67,16 +68,45 @@ CARDAN_INLINE void backward_sweep(std::ptrdiff_t n, const Model::Link* links,
     }
 }
 
-CARDAN_VECTORISED void sweeps(std::ptrdiff_t n, const Model::Link* links, const Workspace::Frame* frame,
-                              const double* qd, const double* qdd, Workspace::Motion* motion, Workspace::Load* load,
-                              double* tau) {
+// Adds the forces of entrained water to the loads, with the velocities of the joint origins, which a rigid body's force
+// does not depend on.
+template <class S>
+void add_added_mass_loads(const KinematicsT<S>& kin, VectorInT<S> qd) {
+    WorkspaceT<S>& ws = kin.workspace();
+    for (const auto& at : ws.entraining) {
+        const Model::Link& link = entry(kin.model().links(), at.body);
+        const typename WorkspaceT<S>::Frame& frame = entry(ws.frame, at.body);
+        typename WorkspaceT<S>::Motion& motion = entry(ws.motion, at.body);
+        motion.v = Packed3<S>::zero();
+        if (link.parent >= 0) {
+            const typename WorkspaceT<S>::Motion& parent = entry(ws.motion, link.parent);
+            motion.v = parent.v + cross(parent.w, frame.o - entry(ws.frame, link.parent).o);
+        }
+        if (!link.revolute) motion.v += qd(at.body) * frame.E[2];
+        if (at.own < 0) continue;
+        const Vec6T<S> f = added_mass_force<S>(own_added_mass(kin, entry(kin.model().added_masses(), at.own)), motion);
+        typename WorkspaceT<S>::Load& load = entry(ws.load, at.body);
+        load.N += Packed3<S>::of(f(0), f(1), f(2));
+        load.F += Packed3<S>::of(f(3), f(4), f(5));
+    }
+}
+
+CARDAN_VECTORISED void run_forward(std::ptrdiff_t n, const Model::Link* links, const Workspace::Frame* frame,
+                                   const double* qd, const double* qdd, Workspace::Motion* motion,
+                                   Workspace::Load* load) {
     forward_sweep<double>(n, links, frame, qd, qdd, motion, load);
+}
+CARDAN_VECTORISED void run_backward(std::ptrdiff_t n, const Model::Link* links, const Workspace::Frame* frame,
+                                    Workspace::Load* load, double* tau) {
     backward_sweep<double>(n, links, frame, load, tau);
 }
 
-void sweeps(std::ptrdiff_t n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame, const Complex* qd,
-            const Complex* qdd, WorkspaceT<Complex>::Motion* motion, WorkspaceT<Complex>::Load* load, Complex* tau) {
+void run_forward(std::ptrdiff_t n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame, const Complex* qd,
+                 const Complex* qdd, WorkspaceT<Complex>::Motion* motion, WorkspaceT<Complex>::Load* load) {
     forward_sweep<Complex>(n, links, frame, qd, qdd, motion, load);
+}
+void run_backward(std::ptrdiff_t n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame,
+                  WorkspaceT<Complex>::Load* load, Complex* tau) {
     backward_sweep<Complex>(n, links, frame, load, tau);
 }
 
@@ -89,8 +119,10 @@ void inverse_dynamics(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> q
     require_size("inverse dynamics", "qd", qd, model.size());
     require_size("inverse dynamics", "qdd", qdd, model.size());
     require_size("inverse dynamics", "tau", tau, model.size());
-    sweeps(model.size(), model.links().data(), ws.frame.data(), qd.data(), qdd.data(), ws.motion.data(), ws.load.data(),
-           tau.data());
+    run_forward(model.size(), model.links().data(), ws.frame.data(), qd.data(), qdd.data(), ws.motion.data(),
+                ws.load.data());
+    add_added_mass_loads<S>(kin, qd);
+    run_backward(model.size(), model.links().data(), ws.frame.data(), ws.load.data(), tau.data());
     for (const Model::Spin& armature : model.armatures()) {
         S spin(0);
         for (const auto& [a, s] : armature.spin) spin += s * qdd(a);

@@ -31,6 +31,20 @@ void WorkspaceT<S>::allocate(const Model& model) {
     for (const Model::Link& link : model.links()) deepest = std::max(deepest, link.depth);
     stride = PathTwists<S>::blocks(deepest);
     branch.assign(static_cast<std::size_t>(PathTwists<S>::rows * stride), Packed3<S>::zero());
+    if (!model.added_masses().empty()) find_entraining(model);
+}
+
+template <class S>
+void WorkspaceT<S>::find_entraining(const Model& model) {
+    std::vector<int> place(frame.size(), -1);
+    int own = 0;
+    for (int k = 0; k < model.size(); ++k) {
+        if (!model.entrains(k)) continue;
+        entry(place, k) = static_cast<int>(entraining.size());
+        const int parent = model.body(k).parent;
+        const bool has = own < std::ssize(model.added_masses()) && entry(model.added_masses(), own).body == k;
+        entraining.push_back({k, parent < 0 ? -1 : entry(place, parent), has ? own++ : -1});
+    }
 }
 
 namespace {

@@ -6,6 +6,42 @@
 
 namespace cardan::lagrange {
 
+namespace {
+
+// Twist [angular; linear] of coordinate a at the joint origin of a body with added mass, body axes.
+template <class S>
+Vec6T<S> twist(const KinematicsT<S>& kin, const Model::AddedMass& water, int a) {
+    if (!kin.model().precedes(a, water.body)) return Vec6T<S>::Zero();
+    const PointTwist<S> at = twist_at(kin, a, kin.origin(water.body));
+    const Mat3T<S> to_body = kin.rotation(water.body).transpose();
+    return (Vec6T<S>() << to_body * at.w, to_body * at.v).finished();
+}
+
+// x . A y
+template <class S>
+S energy_product(const Model::AddedMass& water, const Vec6T<S>& x, const Vec6T<S>& y) {
+    return (x.transpose() * (water.inertia.template cast<S>() * y)).value();
+}
+
+// d/dq^c of the twist of a, seen from the body: it changes if c lies between a and the body.
+template <class S>
+Vec6T<S> twist_rate(const KinematicsT<S>& kin, const Model::AddedMass& water, int a, int c) {
+    if (c <= a) return Vec6T<S>::Zero();
+    const Vec6T<S> x = twist(kin, water, a), y = twist(kin, water, c);
+    const Vec3T<S> xw = x.template head<3>(), xv = x.template tail<3>(), yw = y.template head<3>(),
+                   yv = y.template tail<3>();
+    return (Vec6T<S>() << cross<S>(xw, yw), cross<S>(xw, yv) + cross<S>(xv, yw)).finished();
+}
+
+// d_c g_ab of a body with added mass.
+template <class S>
+S metric_rate(const KinematicsT<S>& kin, const Model::AddedMass& water, int c, int a, int b) {
+    return energy_product<S>(water, twist_rate(kin, water, a, c), twist(kin, water, b)) +
+           energy_product<S>(water, twist_rate(kin, water, b, c), twist(kin, water, a));
+}
+
+}  // namespace
+
 template <class S>
 S metric(const KinematicsT<S>& kin, int a, int b) {
     const Model& model = kin.model();
@@ -16,6 +52,8 @@ S metric(const KinematicsT<S>& kin, int a, int b) {
         const Vec3T<S> J_Omega = model.body(k).J.template cast<S>() * at_b.Omega;
         sum += S(model.body(k).inertia.mass) * dot<S>(at_a.u, at_b.u) + dot<S>(at_a.Omega, J_Omega);
     }
+    for (const Model::AddedMass& water : model.added_masses())
+        sum += energy_product<S>(water, twist(kin, water, a), twist(kin, water, b));
     for (const Model::Spin& armature : model.armatures()) {
         double sa = 0, sb = 0;
         for (const auto& [index, factor] : armature.spin) {
@@ -41,6 +79,10 @@ S christoffel_first_kind(const KinematicsT<S>& kin, int a, int b, int c) {
         const Vec3T<S> P_Omega = binet_tensor<double>(model.body(k).J).template cast<S>() * at_b.Omega;
         sum += S(model.body(k).inertia.mass) * dot<S>(at_a.u, cross<S>(at_b.Omega, at_c.u)) +
                dot<S>(P_Omega, cross<S>(at_c.Omega, at_a.Omega));
+    }
+    for (const Model::AddedMass& water : model.added_masses()) {
+        const auto by = [&](int i, int j, int k) { return metric_rate(kin, water, i, j, k); };
+        sum += (by(c, a, b) + by(b, a, c) - by(a, b, c)) / S(2);
     }
     return sum;
 }

@@ -1,5 +1,6 @@
 #include "mbs/kernels/metric.hpp"
 
+#include "mbs/kernels/detail/added_mass.hpp"
 #include "mbs/kernels/path_twists.hpp"
 
 namespace cardan {
@@ -52,6 +53,22 @@ CARDAN_INLINE void fill(int n, const Model::Link* links, const typename Workspac
     }
 }
 
+// Calls add(a, b, value) for what added mass adds to g_ab.
+template <class S, class Add>
+void add_added_mass(const KinematicsT<S>& kin, const Add& add) {
+    for (const auto& at : kin.workspace().entraining) {
+        const int m = at.body;
+        const Vec3T<S> o = entry(kin.workspace().frame, m).o.vector();
+        const Vec6T<S> momentum = at.I * twist_column(kin, m, o);
+        add(m, m, work<S>(twist_column(kin, m, o), momentum));
+        for (int a = own_parent(kin.model(), m); a >= 0; a = own_parent(kin.model(), a)) {
+            const S value = work<S>(twist_column(kin, a, o), momentum);
+            add(a, m, value);
+            add(m, a, value);
+        }
+    }
+}
+
 CARDAN_VECTORISED void run(int n, const Model::Link* links, const Workspace::Frame* frame,
                            const Workspace::Inertia* composite, const PathTwists<double>& path,
                            const DenseSink<double>& g) {
@@ -77,6 +94,7 @@ void metric(const KinematicsT<S>& kin, MatrixOutT<S> g) {
     const PathTwists<S> path(ws.branch.data(), ws.stride);
     run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(), path,
         DenseSink<S>{model.links().data(), model.size(), g.data(), g.outerStride(), path.row(0), path.row(0)});
+    add_added_mass(kin, [&](int a, int b, const S& value) { g(a, b) += value; });
     add_armatures<S>(model, g);
 }
 
@@ -87,6 +105,7 @@ void metric(const Kinematics& kin, BranchMatrix& g) {
     Workspace& ws = kin.workspace();
     run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
         PathTwists<double>(ws.branch.data(), ws.stride), BranchSink{g.rows(), g.columns(), g.offset()});
+    add_added_mass(kin, [&](int a, int b, double value) { g.add(a, b, value); });
     for (const Model::Spin& armature : model.armatures())
         for (const auto& [a, sa] : armature.spin)
             for (const auto& [b, sb] : armature.spin) g.add(a, b, armature.inertia * (sa * sb));
@@ -131,6 +150,10 @@ double kinetic_energy(const Kinematics& kin, VectorIn qd) {
         double spin = 0;
         for (const auto& [a, s] : armature.spin) spin += s * qd(a);
         twice += armature.inertia * spin * spin;
+    }
+    for (const Model::AddedMass& water : model.added_masses()) {
+        const Vec6 v = twist_column<double>(entry(ws.motion, water.body));
+        twice += work<double>(v, own_added_mass(kin, water) * v);
     }
     return twice / 2;
 }

@@ -9,7 +9,7 @@
 
 namespace cardan {
 
-/// Metric, armatures included.
+/// Metric, armatures and added mass included.
 ///
 ///     g_ab = sum_k m_k u_ka . u_kb + Omega_ka . J_k Omega_kb      [Zhao et al. 2007, eq. 8]
 ///

@@ -19,19 +19,18 @@ Vec6 joint_axis(const Model::Link& link, const Workspace::Frame& frame) {
     return S;
 }
 
-// Twist at one point -> twist at another one, `arm` further.
-Mat6 shift(const Vec3& arm) {
-    Mat6 X = Mat6::Identity();
-    X.bottomLeftCorner<3, 3>() = -skew<double>(arm);
-    return X;
-}
-
 // Largest inertia of a body in any direction, about its joint origin.
 Mat6 worst_inertia(const Model::Link& link, const Workspace::Frame& frame) {
     const Vec3 c = (frame.r - frame.o).vector();
     Vec6 diagonal;
     diagonal.head<3>().setConstant(link.J.matrix().trace() + link.mass * c.squaredNorm());
     diagonal.tail<3>().setConstant(link.mass);
+    return diagonal.asDiagonal();
+}
+Mat6 worst_inertia(const Model::AddedMass& water) {
+    Vec6 diagonal;
+    diagonal.head<3>().setConstant(water.inertia.topLeftCorner<3, 3>().trace());
+    diagonal.tail<3>().setConstant(water.inertia.bottomRightCorner<3, 3>().trace());
     return diagonal.asDiagonal();
 }
 
@@ -46,6 +45,7 @@ std::optional<SingularPivot> ForwardDynamics::singular_pivot(const Kinematics& k
     Vector qdd = zero, actuator = zero;
     solve(kin, zero, zero, qdd, actuator);
     std::vector<Mat6> bound(static_cast<std::size_t>(n), Mat6::Zero());
+    for (const Model::AddedMass& water : model_->added_masses()) entry(bound, water.body) = worst_inertia(water);
     for (std::size_t k = bound.size(); k-- > 0;) {
         const Model::Link& link = model_->links()[k];
         const Workspace::Frame& frame = kin.workspace().frame[k];
@@ -63,7 +63,7 @@ std::optional<SingularPivot> ForwardDynamics::singular_pivot(const Kinematics& k
             B = (P.transpose() * B * P + U * U.transpose() / D).eval();
         }
         if (link.parent < 0) continue;
-        const Mat6 X = shift((frame.o - entry(kin.workspace().frame, link.parent).o).vector());
+        const Mat6 X = twist_shift<double>((frame.o - entry(kin.workspace().frame, link.parent).o).vector());
         entry(bound, link.parent) += X.transpose() * B * X;
     }
     return singular_pivot_of_support();
@@ -84,7 +84,7 @@ int ForwardDynamics::most_distal(const Kinematics& kin, int at, double scale) co
             continue;
         }
         const Vec3 arm = (frame.o - entry(kin.workspace().frame, link.parent).o).vector();
-        own = shift(arm) * entry(twist, link.parent - at);
+        own = twist_shift<double>(arm) * entry(twist, link.parent - at);
         if (driven_[i] != 0) continue;
         Vec6 U;
         U << articulated_[i].U_angular.vector(), articulated_[i].U_linear.vector();

@@ -45,6 +45,16 @@ public:
         Packed3<S> psi1_w, psi1_u, psi2_w, psi2_u;
     };
 
+    /// A body whose subtree has added mass.
+    struct Entraining {
+        int body;
+        int parent;       ///< its place among them, -1: base
+        int own;          ///< index in Model::added_masses(), -1: only bodies that it carries have some
+        Mat6T<S> I = {};  ///< of the subtree about the joint origin
+        Mat6T<S> B = {};  ///< likewise coriolis_inertia(); scratch
+        Vec6T<S> f = {};  ///< and force; scratch
+    };
+
     /// Model::serial() of the model it was made for.
     std::uint64_t model_serial;
 
@@ -54,8 +64,9 @@ public:
     VectorT<S> sine, cosine;
 
     std::uint64_t inertia_generation = 0, centre_generation = 0, composite_generation = 0;
-    std::vector<Packed33<S>> J;      ///< inertia tensors about the centres of mass
-    std::vector<Inertia> composite;  ///< subtrees, Binet tensors
+    std::vector<Packed33<S>> J;          ///< inertia tensors about the centres of mass
+    std::vector<Inertia> composite;      ///< subtrees, Binet tensors
+    std::vector<Entraining> entraining;  ///< in the order of the model; none without added mass
 
     // Scratch of the recursions.
     std::vector<Motion> motion;
@@ -70,6 +81,7 @@ public:
 
 private:
     void allocate(const Model& model);
+    void find_entraining(const Model& model);
 };
 
 using Workspace = WorkspaceT<double>;

@@ -42,6 +42,7 @@ void Model::make(const Tree& tree) {
         }
         armatures_.push_back(spin);
     }
+    sum_added_masses(tree);
     const auto indices = [&](const std::array<BodyId, 3>& bodies) {
         return std::array{index(bodies[0]), index(bodies[1]), index(bodies[2])};
     };
@@ -119,6 +120,18 @@ void Model::make_links() {
         own.share = own.subtree_mass / (carrier + own.subtree_mass);
         own.reduced = own.share * carrier;
         carrier += own.subtree_mass;
+    }
+}
+
+void Model::sum_added_masses(const Tree& tree) {
+    for (const cardan::AddedMass& water : tree.added_masses()) {
+        const Frame& at = frame(water.frame);
+        if (at.body < 0) continue;
+        const auto place = std::ranges::lower_bound(added_masses_, at.body, {}, &AddedMass::body);
+        if (place != added_masses_.end() && place->body == at.body)
+            place->inertia += water.in(at.in_body);
+        else
+            added_masses_.insert(place, {at.body, water.in(at.in_body)});
     }
 }
 

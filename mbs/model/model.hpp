@@ -6,6 +6,8 @@
 #include "mbs/base/sizes.hpp"
 #include "mbs/model/tree.hpp"
 
+#include <algorithm>
+
 namespace cardan {
 
 /// Bodies are sorted depth first, so that body index = coordinate index, every parent precedes its children and the
@@ -36,6 +38,12 @@ public:
         std::string name;
         double inertia;
         std::vector<std::pair<int, double>> spin;
+    };
+
+    /// All added mass of a body, V^T A V / 2 with V = [angular velocity; velocity] of its joint origin in body axes.
+    struct AddedMass {
+        int body;
+        Mat6 inertia;  ///< A
     };
 
     /// A free body, by coordinate indices; see cardan::FreeBody.
@@ -69,6 +77,13 @@ public:
     const std::vector<int>& by_depth() const { return by_depth_; }
     const std::vector<Frame>& frames() const { return frames_; }
     const std::vector<Spin>& armatures() const { return armatures_; }
+    /// At most one per body, those with the lowest indices first.
+    const std::vector<AddedMass>& added_masses() const { return added_masses_; }
+    /// Whether a body of the subtree of a has added mass.
+    bool entrains(int a) const {
+        const auto first = std::ranges::lower_bound(added_masses_, a, {}, &AddedMass::body);
+        return first != added_masses_.end() && first->body < body(a).subtree_end;
+    }
     const CoordinateTable& coordinates() const { return coordinates_; }
     const std::vector<Free>& free_bodies() const { return free_bodies_; }
     /// @throws InputError for a name that no free body has
@@ -95,6 +110,7 @@ private:
     void make(const Tree& tree);
     void sort(const Tree& tree);
     void make_links();
+    void sum_added_masses(const Tree& tree);
     void check_metric() const;
 
     std::vector<Body> bodies_;
@@ -102,6 +118,7 @@ private:
     std::vector<int> by_depth_;
     std::vector<Frame> frames_;
     std::vector<Spin> armatures_;
+    std::vector<AddedMass> added_masses_;
     std::vector<Free> free_bodies_;
     CoordinateTable coordinates_;
     std::vector<int> index_of_tree_body_;

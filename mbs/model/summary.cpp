@@ -56,6 +56,11 @@ std::string summary(const Tree& tree) {
             out << "\n";
         }
     }
+    if (!tree.added_masses().empty()) out << "\nadded masses\n";
+    for (const AddedMass& water : tree.added_masses())
+        out << "  " << std::left << std::setw(24) << water.name << std::right << std::setprecision(1) << std::setw(16)
+            << water.inertia.bottomRightCorner<3, 3>().trace() / 3 << " kg, mean of three directions, on '"
+            << entry(tree.frames(), water.frame.index).name << "'\n";
     out << "\ncoordinates: " << tree.bodies().size() << "\n";
     int index = 0;
     for (const Tree::Body& body : tree.bodies()) {

@@ -139,6 +139,12 @@ void Tree::add_armature(const Armature& armature) {
     armatures_.push_back(armature);
 }
 
+void Tree::add_added_mass(const AddedMass& water) {
+    require(water.frame, text("added mass '", water.name, "'"));
+    water.check();
+    added_masses_.push_back(water);
+}
+
 FrameId Tree::frame_of(BodyId body) const {
     require(body, "frame_of");
     return entry(bodies_, body.index).frame;

@@ -2,6 +2,7 @@
 /// Editable description of a tree of rigid bodies, from which an immutable Model is made.
 #pragma once
 
+#include "mbs/model/added_mass.hpp"
 #include "mbs/model/coordinates.hpp"
 #include "mbs/model/dh.hpp"
 #include "mbs/model/inertia.hpp"
@@ -93,6 +94,7 @@ public:
     /// @param part  what the inertia belongs to ("tower", "hub"): the summary adds up masses by part
     void weld(FrameId frame, const RigidInertia& inertia, std::string_view part = "welded body");
     void add_armature(const Armature& armature);
+    void add_added_mass(const AddedMass& water);
 
     FrameId frame_of(BodyId body) const;
     FrameId frame(std::string_view name) const;
@@ -102,6 +104,7 @@ public:
     const std::vector<Frame>& frames() const { return frames_; }
     const std::vector<FreeBody>& free_bodies() const { return free_bodies_; }
     const std::vector<Armature>& armatures() const { return armatures_; }
+    const std::vector<AddedMass>& added_masses() const { return added_masses_; }
     const std::vector<Piece>& pieces() const { return pieces_; }
 
 private:
@@ -113,6 +116,7 @@ private:
     std::vector<Frame> frames_;
     std::vector<FreeBody> free_bodies_;
     std::vector<Armature> armatures_;
+    std::vector<AddedMass> added_masses_;
     std::vector<Piece> pieces_;
     std::map<std::string, int, std::less<>> frame_index_;  ///< of every name of a frame or body
     std::set<std::string, std::less<>> coordinate_names_;

@@ -47,6 +47,12 @@ Matrix random_matrix(Random& random, Eigen::Index rows, Eigen::Index columns) {
     return random_state(random, static_cast<int>(rows * columns)).reshaped(rows, columns);
 }
 
+Mat6 random_added_mass(Random& random) {
+    const Matrix root = random_matrix(random, 6, 1 + static_cast<int>(uniform(random, 0, 6)));
+    const Mat6 A = root * root.transpose();
+    return (A + A.transpose()) / 2;
+}
+
 Tree random_tree(Random& random, const RandomTreeOptions& options) {
     const int n = options.bodies;
     std::vector<int> parent(static_cast<std::size_t>(n));
@@ -86,6 +92,11 @@ Tree random_tree(Random& random, const RandomTreeOptions& options) {
         for (int k = n - 1; k >= 0 && spin.size() < 3; k = entry(parent, k))
             spin.emplace_back(entry(ids, k), uniform(random, -2, 2));
         tree.add_armature({"geared", 1.3, spin});
+    }
+    for (int k = 0; options.added_mass > 0 && k < n; ++k) {
+        if (uniform(random, 0, 1) >= options.added_mass) continue;
+        const FrameId at = tree.add_frame(tree.frame_of(entry(ids, k)), random_placement(random), text("water ", k));
+        tree.add_added_mass({text("water ", k), at, random_added_mass(random)});
     }
     return tree;
 }

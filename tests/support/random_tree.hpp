@@ -24,8 +24,11 @@ struct RandomTreeOptions {
     double massless = 0.25;
     double coincident = 0.2;  ///< joints in one point with the parent's, as in a cardan joint
     bool armatures = false;
+    double added_mass = 0;  ///< share of bodies that entrain water
     int driven = 0;
 };
+/// Of rank 1 to 6, of the size of random_inertia().
+Mat6 random_added_mass(Random& random);
 /// Every leaf has mass, so the metric is positive definite almost surely.
 Tree random_tree(Random& random, const RandomTreeOptions& options = {});
 /// Springs, dampers, gravity, dead and follower wrenches on a random tree.

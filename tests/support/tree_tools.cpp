@@ -66,6 +66,12 @@ std::vector<BodyId> transplant(Tree& target, FrameId onto, const Tree& source, s
         for (auto& [body, factor] : armature.spin) body = entry(added, body.index);
         target.add_armature(armature);
     }
+    for (AddedMass water : source.added_masses()) {
+        const Tree::Frame& at = entry(source.frames(), water.frame.index);
+        water.inertia = water.in(at.in_body);
+        water.frame = at.body < 0 ? onto : target.frame_of(entry(added, at.body));
+        target.add_added_mass(water);
+    }
     return added;
 }
 

@@ -140,6 +140,8 @@ private:
     void losses() {
         for (const Armature& armature : tree_.armatures())
             out_.losses.push_back(text("armature '", armature.name, "' of ", armature.inertia));
+        for (const AddedMass& water : tree_.added_masses())
+            out_.losses.push_back(text("added mass '", water.name, "'"));
         std::set<std::string> parts;
         for (const Tree::Body& b : tree_.bodies()) {
             const CoordinateInfo& c = b.spec.coordinate;

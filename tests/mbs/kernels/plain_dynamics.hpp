@@ -86,6 +86,7 @@ template <class S>
 std::vector<Joint<S>> joints(const Model& model, const VectorT<S>& q) {
     std::vector<Joint<S>> all;
     for (int i = 0; i < model.size(); ++i) all.push_back(joint<S>(model.body(i), q(i)));
+    for (const Model::AddedMass& water : model.added_masses()) entry(all, water.body).I += water.inertia.cast<S>();
     return all;
 }
 

@@ -128,6 +128,16 @@ TEST_CASE("allocation guard: sees what Eigen, operator new and the standard libr
     CHECK(x.sum() == 3.0 * n);
 }
 
+TEST_CASE("allocation: no kernel allocates with added mass", "[property]") {
+    if (!AllocationGuard::works()) return;
+    for (unsigned seed = 0; seed < 5; ++seed) {
+        Random random(seed);
+        const Tree tree = random_tree(random, {.bodies = 6 + static_cast<int>(seed), .added_mass = 0.5});
+        const System system(tree, random_forces(random, tree));
+        require_no_allocation(system, std::vector<bool>(static_cast<std::size_t>(system.model.size()), false), seed);
+    }
+}
+
 TEST_CASE("allocation: no kernel allocates after the workspace is made, on random trees with all force elements",
           "[property]") {
     if (!AllocationGuard::works()) return;

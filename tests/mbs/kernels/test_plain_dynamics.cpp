@@ -10,12 +10,13 @@ using namespace cardan::testing;
 
 namespace {
 
-enum class Armatures { none, single, geared };
+enum class Extra { none, single, geared, added_mass };
 
-Tree tree_of(Random& random, unsigned seed, Armatures armatures) {
-    Tree tree =
-        random_tree(random, {.bodies = 3 + static_cast<int>(seed % 20), .armatures = armatures == Armatures::geared});
-    if (armatures == Armatures::single)
+Tree tree_of(Random& random, unsigned seed, Extra extra) {
+    Tree tree = random_tree(random, {.bodies = 3 + static_cast<int>(seed % 20),
+                                     .armatures = extra == Extra::geared,
+                                     .added_mass = extra == Extra::added_mass ? 0.4 : 0});
+    if (extra == Extra::single)
         for (int k = 0; k < static_cast<int>(tree.bodies().size()); k += 2)
             tree.add_armature({text("rotor ", k), uniform(random, 0.1, 2), {{BodyId{k}, uniform(random, -2, 2)}}});
     return tree;
@@ -23,9 +24,9 @@ Tree tree_of(Random& random, unsigned seed, Armatures armatures) {
 
 // A tree at a state; every third one has driven coordinates.
 struct Sample {
-    Sample(unsigned seed, Armatures armatures)
+    Sample(unsigned seed, Extra extra)
         : random(seed),
-          model(tree_of(random, seed, armatures)),
+          model(tree_of(random, seed, extra)),
           n(model.size()),
           q(random_state(random, n, 3)),
           qd(random_state(random, n, 2)),
@@ -53,11 +54,11 @@ struct Sample {
 };
 
 template <class Check>
-void for_all_trees(unsigned trees, std::initializer_list<Armatures> kinds, const Check& check) {
-    for (const Armatures armatures : kinds)
+void for_all_trees(unsigned trees, std::initializer_list<Extra> kinds, const Check& check) {
+    for (const Extra extra : kinds)
         for (unsigned seed = 0; seed < trees; ++seed) {
-            CAPTURE(seed, static_cast<int>(armatures));
-            Sample s(seed, armatures);
+            CAPTURE(seed, static_cast<int>(extra));
+            Sample s(seed, extra);
             check(s);
         }
 }
@@ -91,7 +92,7 @@ void require_equal_motion(const Sample& s, const plain::Motion<double>& expected
 }  // namespace
 
 TEST_CASE("plain dynamics: recursive Newton-Euler and the metric from it equal the kernels", "[crosscheck]") {
-    for_all_trees(100, {Armatures::none, Armatures::single, Armatures::geared}, [](Sample& s) {
+    for_all_trees(100, {Extra::none, Extra::single, Extra::geared, Extra::added_mass}, [](Sample& s) {
         Vector tau(s.n);
         inverse_dynamics<double>(s.kin, s.qd, s.qdd, tau);
         require_close(tau, plain::inverse_dynamics<double>(s.model, s.q, s.qd, s.qdd), 1e-13);
@@ -101,20 +102,20 @@ TEST_CASE("plain dynamics: recursive Newton-Euler and the metric from it equal t
 
 TEST_CASE("plain dynamics: the articulated-body algorithm equals the kernel, driven joints and rotors included",
           "[crosscheck]") {
-    for_all_trees(100, {Armatures::none, Armatures::single}, [](Sample& s) {
+    for_all_trees(100, {Extra::none, Extra::single, Extra::added_mass}, [](Sample& s) {
         require_equal_motion(s, plain::forward_dynamics<double>(s.model, s.driven, s.q, s.qd, s.Q, s.qdd));
     });
 }
 
 TEST_CASE("plain dynamics: elimination in the metric equals the kernel with any armatures", "[crosscheck]") {
-    for_all_trees(100, {Armatures::none, Armatures::single, Armatures::geared}, [](Sample& s) {
+    for_all_trees(100, {Extra::none, Extra::single, Extra::geared, Extra::added_mass}, [](Sample& s) {
         require_equal_motion(s, plain::forward_dynamics_by_metric<double>(s.model, s.driven, s.q, s.qd, s.Q, s.qdd));
     });
 }
 
 TEST_CASE("plain dynamics: complex steps through Newton-Euler equal the derivatives of the inverse dynamics",
           "[crosscheck]") {
-    for_all_trees(30, {Armatures::none, Armatures::geared}, [](Sample& s) {
+    for_all_trees(30, {Extra::none, Extra::geared, Extra::added_mass}, [](Sample& s) {
         const ComplexVector q = s.q.cast<Complex>(), qd = s.qd.cast<Complex>(), qdd = s.qdd.cast<Complex>();
         Matrix by_q(s.n, s.n), by_qd(s.n, s.n);
         inverse_dynamics_derivatives(s.kin, s.qd, s.qdd, by_q, by_qd);
@@ -130,7 +131,7 @@ TEST_CASE(
     "plain dynamics: complex steps through the articulated-body algorithm equal the derivatives of the forward "
     "dynamics",
     "[crosscheck]") {
-    for_all_trees(30, {Armatures::none, Armatures::single}, [](Sample& s) {
+    for_all_trees(30, {Extra::none, Extra::single, Extra::added_mass}, [](Sample& s) {
         const ComplexVector q = s.q.cast<Complex>(), qd = s.qd.cast<Complex>(), Q = s.Q.cast<Complex>(),
                             prescribed = s.qdd.cast<Complex>();
         const Vector qdd = plain::forward_dynamics<double>(s.model, s.driven, s.q, s.qd, s.Q, s.qdd).qdd;
