@@ -5,7 +5,7 @@
 #include "bench/pairs.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/aerodynamics/nrel5mw_air.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -5,7 +5,7 @@
 #include "mbs/system/forward_derivatives.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/aerodynamics/nrel5mw_air.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
 
 #include <benchmark/benchmark.h>
 

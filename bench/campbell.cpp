@@ -3,9 +3,9 @@
 #include "bench/pairs.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/point.hpp"
-#include "turbines/machines/nrel5mw.hpp"
-#include "turbines/machines/teetered.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
+#include "turbines/reference_turbines/teetered.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -3,7 +3,7 @@
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/derivatives.hpp"
 #include "mbs/system/forward_derivatives.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -7,9 +7,9 @@
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/time/integrate.hpp"
-#include "turbines/control/actuators.hpp"
-#include "turbines/machines/nrel5mw.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/actuators/actuators.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 #include <benchmark/benchmark.h>
 

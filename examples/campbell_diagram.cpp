@@ -4,7 +4,7 @@
 #include <cardan/solvers/campbell_data/csv.hpp>
 #include <cardan/solvers/hdf5/campbell.hpp>
 #include <cardan/solvers/pictures/campbell.hpp>
-#include <cardan/turbines/machines/wt600.hpp>
+#include <cardan/turbines/reference_turbines/wt600.hpp>
 
 #include <cstdio>
 #include <iostream>

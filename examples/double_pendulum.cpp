@@ -1,7 +1,7 @@
 // A double pendulum: metric g, Christoffel symbols Gamma and forces Q of its equations of motion
 //     g_ab q''^b + Gamma_abc q'^b q'^c = Q_a
 // beside the formulas of the textbook, and the accelerations q''.
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/units.hpp>
 #include <cardan/mbs/kernels/christoffel.hpp>
 #include <cardan/mbs/kernels/dynamics.hpp>

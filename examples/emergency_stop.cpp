@@ -5,7 +5,7 @@
 #include <cardan/solvers/hdf5/history.hpp>
 #include <cardan/solvers/periodic/steady_state.hpp>
 #include <cardan/solvers/pictures/history.hpp>
-#include <cardan/turbines/machines/wt600_operation.hpp>
+#include <cardan/turbines/reference_turbines/wt600_operation.hpp>
 
 #include <cstdio>
 #include <iostream>

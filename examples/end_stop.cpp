@@ -1,7 +1,7 @@
 // A flywheel runs into an end stop without a damper. The spring takes up its energy J v^2 / 2: k x^3 / 6 w at a depth x
 // below w, over which it stiffens, and k (x^2 - w x + w^2 / 3) / 2 beyond. The wheel comes back as fast as it came.
-#include <cardan/elements/machine/end_stop.hpp>
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/end_stop.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/mbs/model/solids.hpp>
 #include <cardan/solvers/time/integrate.hpp>

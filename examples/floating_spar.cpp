@@ -6,8 +6,8 @@
 #include <cardan/solvers/equilibrium/steady_state.hpp>
 #include <cardan/solvers/hdf5/history.hpp>
 #include <cardan/solvers/pictures/history.hpp>
-#include <cardan/turbines/machines/oc3_hywind.hpp>
 #include <cardan/turbines/model/channels.hpp>
+#include <cardan/turbines/reference_turbines/oc3_hywind.hpp>
 
 #include <cstdio>
 #include <iostream>

@@ -3,7 +3,7 @@
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/solvers/hdf5/campbell.hpp>
 #include <cardan/solvers/pictures/campbell.hpp>
-#include <cardan/turbines/machines/teetered.hpp>
+#include <cardan/turbines/reference_turbines/teetered.hpp>
 
 #include <cstdio>
 #include <iostream>

@@ -3,7 +3,7 @@
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/mbs/base/units.hpp>
 #include <cardan/solvers/campbell/diagram.hpp>
-#include <cardan/turbines/machines/teetered.hpp>
+#include <cardan/turbines/reference_turbines/teetered.hpp>
 
 #include <cstdio>
 #include <iostream>

@@ -2,7 +2,7 @@
 // power of the shaft less the losses in the windings, 3/2 R i^2 with i = T / (3/2 p psi); in the sag what the limit of
 // current allows, 3/2 u i_max, and the chopper burns the rest. The torque stays. Picture: grid_sag.svg.
 #include <cardan/elements/electric/synchronous_generator.hpp>
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/solvers/pictures/history.hpp>
 #include <cardan/solvers/time/recorder.hpp>

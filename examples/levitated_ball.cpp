@@ -3,7 +3,7 @@
 // off with the root sqrt(2 g / gap); with the controller all roots are on the left, those of the 3 x 3 system by hand:
 // (m s^2 - i^2 L''/2)(L s + R) = i L' (P + (D - L' i) s). levitated_ball.svg shows gap and current.
 #include <cardan/elements/electric/circuit.hpp>
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/units.hpp>
 #include <cardan/solvers/equilibrium/steady_state.hpp>
 #include <cardan/solvers/linear/modes.hpp>

@@ -2,7 +2,7 @@
 // flux in proportion to the angle is what a commutator makes: torque k i, voltage k q'. The roots about the end are
 // those of (J s^2 + m g l cos q)(L s + R) + k^2 s; motor_arm.svg shows angle and current.
 #include <cardan/elements/electric/circuit.hpp>
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/mbs/base/units.hpp>
 #include <cardan/solvers/equilibrium/steady_state.hpp>

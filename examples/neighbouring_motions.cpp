@@ -1,7 +1,7 @@
 // How motions of a double pendulum that start side by side drift apart: P, the derivative of (q, q') at a time by that
 // at the start, from exact derivatives of the accelerations. Beside it the difference of two motions, and Liouville's
 // theorem: det P = det g(start) / det g(end), for two equal rods det g = (2 - cos^2 lower) m^2 l^4.
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/mbs/base/units.hpp>
 #include <cardan/mbs/kernels/dynamics.hpp>

@@ -2,7 +2,7 @@
 // frequency of the grid. The lines that are left carry I = V / (Z1 + Z2), with the impedances of the equivalent circuit
 // at the slips s and 2 - s; the torque is 3/2 |I|^2 p/w (Re(Z1 - Z2) + |Z1 - Z2| cos(2 w t + phase)).
 #include <cardan/elements/electric/three_phase.hpp>
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/solvers/signals/harmonics.hpp>
 #include <cardan/solvers/time/recorder.hpp>

@@ -1,6 +1,6 @@
 // A user-defined force: a spring that hardens, Q = -k q - c q^3, with its energy and its derivatives. The period of
 // the oscillation depends on the amplitude; it is known in closed form (Duffing's equation without damping).
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/units.hpp>
 #include <cardan/solvers/time/integrate.hpp>
 

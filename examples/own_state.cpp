@@ -1,7 +1,7 @@
 // An element of one's own with a state of first order: a rubber bush that creeps (Maxwell's element, a spring k and a
 // damper c in series, whose force obeys F' = k v - k/c F) beside a spring. The three roots of
 // (m L^2 + k0) (L + k/c) + k L = 0 are the modes, and the decay in time is that of the slowest.
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/solvers/linear/modes.hpp>
 #include <cardan/solvers/time/integrate.hpp>
 

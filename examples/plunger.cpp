@@ -2,7 +2,7 @@
 // the plunger's speed makes a voltage, which shows as a dent in the current (plunger.svg). At the end k x + i^2 L'/2 =
 // 0.
 #include <cardan/elements/electric/circuit.hpp>
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/solvers/pictures/history.hpp>
 #include <cardan/solvers/time/recorder.hpp>

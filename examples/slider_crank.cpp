@@ -1,6 +1,6 @@
 // A slider-crank: the tree of crank, rod and slider is closed by a cut joint, the wrist pin. Beside the closed form, at
 // a constant speed of the crank: place and acceleration of the slider, and the force in the pin.
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/loops/closure.hpp>
 #include <cardan/mbs/model/solids.hpp>
 #include <cardan/solvers/time/integrate.hpp>

@@ -1,7 +1,7 @@
 // A book thrown into the air, spinning about its middle axis, turns over again and again, in the period of Jacobi's
 // functions [Landau and Lifshitz, Mechanics, section 37]. Joints about x, y and z, which are singular at every half
 // turn about y, carry it, and there those of a second tree, about y, x and z.
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/mbs/model/solids.hpp>
 #include <cardan/solvers/atlas/atlas.hpp>

@@ -1,6 +1,6 @@
 // A heavy disc on a horizontal shaft that is stiffer in one direction than in the other. Its weight makes the steady
 // state periodic; between the two critical speeds Floquet's theory finds it unstable, as the closed form says.
-#include <cardan/elements/machine/joints.hpp>
+#include <cardan/elements/machine_elements/joints.hpp>
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/mbs/base/outcome.hpp>
 #include <cardan/mbs/base/units.hpp>

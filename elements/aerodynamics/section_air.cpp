@@ -31,8 +31,7 @@ SectionAir section_air(const Induction& balance, const Annulus& annulus, double 
 
 InductionShare induction_share(double tip_speed, double wind) {
     constexpr double calm = 0.1;  // m/s
-    const double square = wind * wind + calm * calm, size = std::sqrt(square),
-                 ratio = std::abs(tip_speed) / size;
+    const double square = wind * wind + calm * calm, size = std::sqrt(square), ratio = std::abs(tip_speed) / size;
     if (ratio <= 1) return {.value = 0};
     if (ratio >= 2) return {};
     const double slope = pi / 2 * std::sin(pi * (ratio - 1));

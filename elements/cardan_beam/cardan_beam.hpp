@@ -14,7 +14,7 @@
 #include "elements/cardan_beam/hinge_law.hpp"
 #include "elements/cardan_beam/joint_stiffness.hpp"
 #include "elements/cardan_beam/partition.hpp"
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "mbs/system/forces.hpp"
 
 #include <optional>

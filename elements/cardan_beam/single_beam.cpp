@@ -1,6 +1,6 @@
 #include "elements/cardan_beam/single_beam.hpp"
 
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "mbs/base/error.hpp"
 
 namespace cardan {

@@ -9,7 +9,7 @@
 ///     forces.add_element(coil.element());
 #pragma once
 
-#include "elements/control/control_signal.hpp"
+#include "elements/controllers/control_signal.hpp"
 #include "elements/electric/inductance.hpp"
 #include "mbs/system/channel.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "elements/electric/detail/induction_laws.hpp"
 #include "elements/electric/detail/machine_channels.hpp"
-#include "elements/machine/gear_ratio.hpp"
+#include "elements/machine_elements/gear_ratio.hpp"
 #include "mbs/base/error.hpp"
 
 #include <cmath>
@@ -47,7 +47,7 @@ EquivalentCircuit::Steady EquivalentCircuit::steady(double peak, double slip, Co
     return out;
 }
 
-InductionMachine EquivalentCircuit::without_stator_resistance(double peak) const {
+KlossCurve EquivalentCircuit::without_stator_resistance(double peak) const {
     const double share = magnetising / (stator_leakage + magnetising),  // of the voltage behind the stator's leakage
         reactance = stator_leakage * share + rotor_leakage;
     return {.synchronous_speed = synchronous_speed(),
@@ -55,7 +55,7 @@ InductionMachine EquivalentCircuit::without_stator_resistance(double peak) const
             .breakdown_slip = rotor_resistance / reactance};
 }
 
-EquivalentCircuit equivalent_circuit(const InductionMachine& machine, double line_voltage, double frequency,
+EquivalentCircuit equivalent_circuit(const KlossCurve& machine, double line_voltage, double frequency,
                                      const CircuitAssumptions& assumed) {
     constexpr const char* here = "equivalent circuit";
     machine.check(here);

@@ -8,9 +8,9 @@
 ///                                           [Krause, Wasynczuk and Sudhoff, Analysis of Electric Machinery, 2002]
 #pragma once
 
-#include "elements/control/control_signal.hpp"
+#include "elements/controllers/control_signal.hpp"
 #include "elements/electric/grid.hpp"
-#include "elements/machine/generator.hpp"
+#include "elements/machine_elements/generator.hpp"
 #include "mbs/system/force_element.hpp"
 
 #include <optional>
@@ -46,7 +46,7 @@ struct EquivalentCircuit {
     /// @param rotor_voltage  of a converter, V, peak, referred to the stator
     Steady steady(double peak, double slip, Complex rotor_voltage = 0) const;
     /// Kloss' formula for this machine: breakdown torque and slip without stator resistance.
-    InductionMachine without_stator_resistance(double peak) const;
+    KlossCurve without_stator_resistance(double peak) const;
     /// @throws InputError for a resistance that is negative (rotor: not positive), a reactance that is not positive
     void check(const std::string& where) const;
 };
@@ -61,7 +61,7 @@ struct CircuitAssumptions {
 /// curve is Kloss' formula. The number of pole pairs follows from frequency and synchronous speed.
 /// @param line_voltage  root mean square between lines, V
 /// @throws InputError also for a synchronous speed that is not the frequency over a whole number of pole pairs
-EquivalentCircuit equivalent_circuit(const InductionMachine& machine, double line_voltage, double frequency,
+EquivalentCircuit equivalent_circuit(const KlossCurve& machine, double line_voltage, double frequency,
                                      const CircuitAssumptions& assumed = {});
 
 /// Order of the machine's electric dynamics.

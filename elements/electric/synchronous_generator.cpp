@@ -2,7 +2,7 @@
 
 #include "elements/electric/detail/law.hpp"
 #include "elements/electric/detail/phasor.hpp"
-#include "elements/machine/gear_ratio.hpp"
+#include "elements/machine_elements/gear_ratio.hpp"
 #include "mbs/base/error.hpp"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 /// Synchronous generator with permanent magnets, full converter and DC link.
 #pragma once
 
-#include "elements/control/control_signal.hpp"
+#include "elements/controllers/control_signal.hpp"
 #include "elements/electric/grid.hpp"
 #include "mbs/system/channel.hpp"
 #include "mbs/system/force_element.hpp"

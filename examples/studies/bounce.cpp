@@ -3,8 +3,8 @@
 //     a v (1 + e) = ln((1 + a v)/(1 - a e v)),
 // and the greatest depth d is (n + 1) (m/k) (v/a - ln(1 + a v)/a^2) = d^(n + 1).      [Hunt and Crossley 1975]
 // Picture: bounce.svg.
-#include "elements/machine/contact.hpp"
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/contact.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "examples/studies/study.hpp"
 #include "solvers/pictures/stack.hpp"
 #include "solvers/time/integrate.hpp"

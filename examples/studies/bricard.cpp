@@ -1,7 +1,7 @@
 // Bricard's loop of five rods and six hinges (IFToMM benchmark A04). By the count of freedoms it should not move; it
 // does, since one of its equations follows from the others. It swings from rest to rest in 2.495855757 s, without loss.
 // Picture: bricard.svg.
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/loops/closure.hpp"
 #include "mbs/model/solids.hpp"

@@ -3,7 +3,7 @@
 // Reference, at every angle: the triangle of the loop gives angles, rates and accelerations in closed form, free bodies
 // give the forces. The plane is that of complex numbers there.
 // Picture: driven_four_bar.svg.
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "examples/studies/study.hpp"
 #include "mbs/loops/closure.hpp"
 #include "mbs/model/solids.hpp"

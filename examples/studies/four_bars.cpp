@@ -3,7 +3,7 @@
 // anti-parallelogram: a solver that does has failed. Beside it, the rate of the one coordinate that there is,
 //     (N+1)/3 + N kg m^2 theta'' = -g ((N+1)/2 + N) cos(theta).
 // Picture: four_bars.svg.
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/solids.hpp"
 #include "solvers/pictures/history.hpp"

@@ -3,8 +3,8 @@
 // the shaft turns freely for 10 s; then it is driven at one turn per second, with equilibrium and eigenvalues.
 // References: Lagrange's equations in shaft angle, slider and arm, integrated by Radau's method and linearised.
 // Picture: governor.svg.
-#include "elements/machine/joints.hpp"
-#include "elements/machine/point_spring.hpp"
+#include "elements/machine_elements/joints.hpp"
+#include "elements/machine_elements/point_spring.hpp"
 #include "examples/studies/study.hpp"
 #include "mbs/model/solids.hpp"
 #include "solvers/equilibrium/steady_state.hpp"

@@ -3,7 +3,7 @@
 // are periodic, and Floquet's theory finds a band in which it is not. References, of an independent program: the linear
 // equations in multiblade coordinates (Coleman and Feingold 1958) and Floquet's theory of equations written by hand;
 // data of Hammond (1974), J. AHS 19 (4), the hub's mass without blades. Picture: ground_resonance.svg.
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "examples/studies/study.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/periodic/floquet.hpp"

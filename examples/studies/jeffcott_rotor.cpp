@@ -3,8 +3,8 @@
 // Reference: closed form of the eigenvalues, with z = x + i y in fixed axes,
 //     m z'' + (ce + ci) z' + (k - i ci Omega) z = 0.                                               [Smith 1933]
 // Picture: jeffcott_rotor.svg.
-#include "elements/machine/bushing.hpp"
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/bushing.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "examples/studies/study.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/modes.hpp"

@@ -4,7 +4,7 @@
 // bearings) and 72 finite elements of Rayleigh's beam (unequal ones) of an independent program; the critical speeds
 // that the paper found with 18 elements. Picture: nelson_mcvaugh_rotor.svg.
 #include "elements/cardan_beam/cardan_beam.hpp"
-#include "elements/machine/bushing.hpp"
+#include "elements/machine_elements/bushing.hpp"
 #include "examples/studies/study.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"

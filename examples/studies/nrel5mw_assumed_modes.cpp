@@ -14,7 +14,7 @@
 #include "mbs/base/units.hpp"
 #include "programs/shared/program.hpp"
 #include "solvers/pictures/stack.hpp"
-#include "turbines/machines/nrel5mw_platform.hpp"
+#include "turbines/reference_turbines/nrel5mw_platform.hpp"
 
 #include <cmath>
 #include <iomanip>

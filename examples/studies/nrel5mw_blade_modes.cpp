@@ -15,7 +15,7 @@
 #include "programs/shared/words.hpp"
 #include "solvers/campbell_data/csv.hpp"
 #include "solvers/pictures/blade_shapes.hpp"
-#include "turbines/machines/nrel5mw_blade.hpp"
+#include "turbines/reference_turbines/nrel5mw_blade.hpp"
 
 #include <array>
 #include <filesystem>

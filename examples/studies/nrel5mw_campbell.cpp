@@ -12,8 +12,8 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/campbell_program.hpp"
-#include "turbines/machines/nrel5mw.hpp"
 #include "turbines/model/scaling.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
 
 #include <array>
 #include <filesystem>

@@ -5,7 +5,7 @@
 //     (k - m w^2) (r + Ip Omega w - Id w^2) = c^2,
 // and critical speeds those with w = Omega or w = -Omega.                                     [Den Hartog 1956]
 // Picture: overhung_disc.svg.
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "examples/studies/study.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "solvers/linear/coleman.hpp"

@@ -2,8 +2,8 @@
 // curve near the dead point, where the linkage snaps through. References: the closed form of the stiffness, rod and
 // actuator in series; angles and limit load by an independent program, Newton's method on the energy of the two
 // springs. Picture: pitch_linkage.svg, over the angle of the blade.
-#include "elements/machine/joints.hpp"
-#include "elements/machine/point_spring.hpp"
+#include "elements/machine_elements/joints.hpp"
+#include "elements/machine_elements/point_spring.hpp"
 #include "examples/studies/study.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/load_curve.hpp"

@@ -2,8 +2,8 @@
 // turns two and a half times, and at its end all the angles are known to many digits. Data and reference: test set for
 // initial value problem solvers, problem "Andrews' squeezing mechanism" (Mazzia and Magherini 2008).
 // Picture: squeezer.svg.
-#include "elements/machine/joints.hpp"
-#include "elements/machine/point_spring.hpp"
+#include "elements/machine_elements/joints.hpp"
+#include "elements/machine_elements/point_spring.hpp"
 #include "examples/studies/study.hpp"
 #include "mbs/loops/closure.hpp"
 #include "solvers/pictures/history.hpp"

@@ -4,8 +4,8 @@
 // independent program. Picture: stick_slip.svg.
 #include "solvers/time/stick_slip.hpp"
 
-#include "elements/machine/friction.hpp"
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/friction.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "examples/studies/study.hpp"
 #include "solvers/pictures/history.hpp"
 #include "solvers/time/recorder.hpp"

@@ -3,7 +3,7 @@
 
 #include "mbs/base/units.hpp"
 #include "programs/shared/campbell_program.hpp"
-#include "turbines/machines/teetered.hpp"
+#include "turbines/reference_turbines/teetered.hpp"
 
 #include <optional>
 

@@ -4,7 +4,7 @@
 //     (k_x - m Omega^2 + i c Omega) X = m e Omega^2,   (k_y - m Omega^2 + i c Omega) Y = -i m e Omega^2.   [Jeffcott
 //     1919]
 // Picture: unbalanced_rotor.svg.
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "examples/studies/study.hpp"
 #include "solvers/periodic/steady_state.hpp"
 #include "solvers/pictures/stack.hpp"

@@ -8,8 +8,8 @@
 #include "mbs/base/units.hpp"
 #include "programs/shared/campbell_program.hpp"
 #include "solvers/campbell_data/difference.hpp"
-#include "turbines/machines/wt600_operation.hpp"
 #include "turbines/model/generator_slip.hpp"
+#include "turbines/reference_turbines/wt600_operation.hpp"
 
 #include <array>
 #include <filesystem>
@@ -87,7 +87,7 @@ int parse(int argc, char** argv, Arguments& a) {
 turbines::Turbine with_generator(const turbines::Turbine& turbine, const Arguments& a) {
     if (a.generator == "slip")
         return turbines::with_generator_slip(
-            turbine, a.data.empty() ? turbines::wt600_induction_machine() : turbines::wt600_induction_machine(a.data),
+            turbine, a.data.empty() ? turbines::wt600_kloss_curve() : turbines::wt600_kloss_curve(a.data),
             a.generator_torque);
     if (a.generator_torque != 0)
         throw InputError("--generator-torque", "value [N m]", a.generator_torque, "0, or --generator slip");

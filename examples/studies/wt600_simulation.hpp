@@ -3,7 +3,7 @@
 
 #include "mbs/base/outcome.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
-#include "turbines/machines/wt600_operation.hpp"
+#include "turbines/reference_turbines/wt600_operation.hpp"
 
 namespace cardan::program {
 

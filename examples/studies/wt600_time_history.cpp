@@ -4,9 +4,9 @@
 // three times its speed (the tower's shadow falls on every blade in turn) passes the first frequency of the tower.
 // --mode fixed: the induction generator (Kloss' law) is connected to the grid when it reaches the synchronous speed;
 // --mode variable: a converter loads it by a table of torque over speed. Gravity and a prescribed load on the rotor (no
-// aerodynamics, see elements/machine/rotor_load.hpp). The tower may stand on a platform that moves as prescribed.
-// Checks: the energy balance, by the integration and by the recorded powers; at the end the speed at which the
-// torques of rotor and generator are equal, found by bisection.
+// aerodynamics, see elements/machine_elements/rotor_load.hpp). The tower may stand on a platform that moves as
+// prescribed. Checks: the energy balance, by the integration and by the recorded powers; at the end the speed at which
+// the torques of rotor and generator are equal, found by bisection.
 #include "examples/studies/motion_option.hpp"
 #include "examples/studies/wt600_simulation.hpp"
 #include "mbs/base/entry.hpp"
@@ -112,7 +112,7 @@ constexpr const char* connected = "generator connected [s]";
 
 // Connects the induction machine when it comes to its synchronous speed.
 std::vector<solvers::Event> events(const turbines::Wt600Operation& machine, double& connected_at) {
-    const auto* law = std::get_if<InductionMachine>(&machine.generator.law);
+    const auto* law = std::get_if<KlossCurve>(&machine.generator.law);
     if (!law) return {};
     const double synchronous = law->synchronous_speed / machine.generator.gear_ratio;
     const int spin = machine.turbine.rotor().spin;

@@ -32,8 +32,8 @@ struct FrameLoad {
     Wrench wrench = {};
     WrenchAxes axes = WrenchAxes::base;
     /// Added to `wrench`, in the same axes; empty: the load is constant. To be continuous. Tables:
-    /// elements/machine/load_over_time.hpp. What has no time of its own (a steady state) takes it at its operating
-    /// point's.
+    /// elements/machine_elements/load_over_time.hpp. What has no time of its own (a steady state) takes it at its
+    /// operating point's.
     std::function<Wrench(double time)> over_time = {};
     /// Times, s, ascending, across which `over_time` is not smooth: integration restarts there.
     std::vector<double> breaks = {};

@@ -47,8 +47,8 @@ std::vector<turbines::ModelAddition> additions_of(const MachineOptions& options)
 void tell_dofs(const turbines::Machine& model, MachineOptions& a) {
     const turbines::FileDofs f = dofs_of(model.description);
     a.generator = f.generator ? "free" : "locked";
-    const turbines::Bearing& yaw = model.description.yaw.rotation;
-    a.yaw = yaw.is_rigid() ? "locked" : yaw.hold == turbines::Bearing::Hold::driven ? "driven" : "free";
+    const turbines::JointSupport& yaw = model.description.yaw.rotation;
+    a.yaw = yaw.is_rigid() ? "locked" : yaw.kind == turbines::JointSupport::Kind::driven ? "driven" : "free";
     a.blades = f.blades ? "bend" : "rigid";
     a.tower =
         f.tower_fore_aft ? (f.tower_side_side ? "bends" : "fore-aft") : (f.tower_side_side ? "side-side" : "rigid");
@@ -107,9 +107,9 @@ std::string counted(const std::vector<SharedNote>& notes, const char* what_they_
 std::string dofs_in_words(const turbines::Machine& model) {
     const turbines::FileDofs f = dofs_of(model.description);
     std::string locked = f.generator ? "" : ", generator locked";
-    const turbines::Bearing& yaw = model.description.yaw.rotation;
+    const turbines::JointSupport& yaw = model.description.yaw.rotation;
     if (yaw.is_rigid()) locked += ", yaw bearing locked";
-    if (yaw.hold == turbines::Bearing::Hold::driven) locked += ", yaw prescribed";
+    if (yaw.kind == turbines::JointSupport::Kind::driven) locked += ", yaw prescribed";
     if (model.description.drive_train.main_shaft.is_rigid()) locked += ", main shaft rigid";
     if (!f.tower_fore_aft) locked += ", tower rigid fore-aft";
     if (!f.tower_side_side) locked += ", tower rigid side-side";

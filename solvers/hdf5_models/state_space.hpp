@@ -2,7 +2,7 @@
 /// Linear models as HDF5 files; the layout is described in docs/linear_models.md.
 #pragma once
 
-#include "solvers/control/linear_model.hpp"
+#include "solvers/linear_models/linear_model.hpp"
 
 #include <filesystem>
 

@@ -2,7 +2,7 @@
 /// Linear models as MATLAB files (version 5, compressed), read by MATLAB, Octave and scipy.
 #pragma once
 
-#include "solvers/control/linear_model.hpp"
+#include "solvers/linear_models/linear_model.hpp"
 
 #include <filesystem>
 

@@ -2,7 +2,7 @@
 #include "solvers/hdf5/campbell.hpp"
 #include "tests/fuzz/fuzz_hdf5.hpp"
 #include "turbines/machine/result.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 namespace {
 

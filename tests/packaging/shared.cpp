@@ -1,7 +1,7 @@
 // A shared object with the libraries in it, as a module for another language would be.
 #include <cardan/mbs/base/error.hpp>
 #include <cardan/solvers/campbell/diagram.hpp>
-#include <cardan/turbines/machines/wt600.hpp>
+#include <cardan/turbines/reference_turbines/wt600.hpp>
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 #include "tests/peers/comparison.hpp"
 #include "tests/peers/simbody_peer.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 using namespace cardan;
 using namespace cardan::peers;

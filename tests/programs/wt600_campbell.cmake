@@ -3,7 +3,7 @@ add_example_test(example_wt600_frozen wt600_campbell 0 "warning: frozen azimuth"
                  --shaft-beam --generator locked --blade-elements 2 --tower-elements 2 --out example_frozen)
 add_example_test(example_wt600_slip wt600_campbell 0 "1st drive-train torsion +1.4286 . 52.14. . +1.4290 . 52.24. ." --rpm 0:27:27
                  --generator slip --paper --out example_wt600_slip)
-# One number for library, command, program and example: that of tests/turbines/machines/wt600/test_wt600_default_mesh and of
+# One number for library, command, program and example: that of tests/turbines/reference_turbines/wt600/test_wt600_default_mesh and of
 # examples.cmake.
 add_example_test(example_wt600_mesh wt600_campbell 0 "2nd blade flap .collective. +5[.]6394 .*mesh: 5 elements per blade, 3 in the tower; " --rpm 0
                  --out example_wt600_mesh)

@@ -1,15 +1,15 @@
 // What `cardan simulate` has written, beside the same motion by calls of the library: started from a
 // periodic steady state by shooting, with the generator as a damper and a constant torque, integrated by another method
 // with a smaller tolerance.
-#include "elements/machine/coordinate_force.hpp"
+#include "elements/machine_elements/coordinate_force.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/hdf5/history.hpp"
 #include "solvers/periodic/steady_state.hpp"
 #include "solvers/time/recorder.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/machines/wt600.hpp"
 #include "turbines/model/channels.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 using namespace cardan;
 

@@ -4,7 +4,7 @@
 #include "mbs/base/units.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/turbines/machines/wt600/test_wt600.hpp"
+#include "tests/turbines/reference_turbines/wt600/test_wt600.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -4,10 +4,10 @@
 #pragma once
 
 #include "elements/aerodynamics/rigid_rotor.hpp"
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "solvers/time/recorder.hpp"
-#include "turbines/machines/wt600.hpp"
 #include "turbines/model/channels.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 extern const cardan::turbines::Turbine turbine;
 extern const cardan::Tree tree;

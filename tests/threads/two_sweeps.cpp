@@ -3,7 +3,7 @@
 #include "mbs/base/error.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/time/integrate.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 #include <exception>
 #include <iostream>

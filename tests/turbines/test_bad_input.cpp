@@ -3,7 +3,7 @@
 #include "tests/support/files.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/wt600/test_wt600.hpp"
+#include "tests/turbines/reference_turbines/wt600/test_wt600.hpp"
 
 namespace cardan::testing::bad_input {
 

@@ -4,8 +4,8 @@
 #include "mbs/base/units.hpp"
 #include "mbs/kernels/metric.hpp"
 #include "turbines/analysis/detail/rigid_rotor.hpp"
-#include "turbines/machines/nrel5mw_controller.hpp"
 #include "turbines/model/assembly.hpp"
+#include "turbines/reference_turbines/nrel5mw_controller.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// The usual controller of variable speed and pitch for any machine.
 #pragma once
 
-#include "elements/control/variable_speed_controller.hpp"
+#include "elements/controllers/variable_speed_controller.hpp"
 #include "turbines/analysis/remark.hpp"
 #include "turbines/machine/machine.hpp"
 

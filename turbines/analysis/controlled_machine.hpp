@@ -2,7 +2,7 @@
 /// A machine under a controller in time: what it measures, when it is called, what it acts upon.
 #pragma once
 
-#include "elements/control/control_signal.hpp"
+#include "elements/controllers/control_signal.hpp"
 #include "solvers/time/sampled.hpp"
 #include "turbines/analysis/settings.hpp"
 #include "turbines/machine/machine.hpp"

@@ -1,7 +1,7 @@
 #include "turbines/analysis/linear_model.hpp"
 
 #include "mbs/base/error.hpp"
-#include "solvers/control/multi_blade_model.hpp"
+#include "solvers/linear_models/multi_blade_model.hpp"
 #include "turbines/analysis/detail/linear_forms.hpp"
 #include "turbines/analysis/linear_signals.hpp"
 #include "turbines/analysis/prepared_machine.hpp"

@@ -9,9 +9,9 @@
 /// It is what `cardan linearise` computes, to the last digit.
 #pragma once
 
-#include "solvers/control/linear_model.hpp"
-#include "solvers/control/model_reduction.hpp"
-#include "solvers/control/multi_blade_model.hpp"
+#include "solvers/linear_models/linear_model.hpp"
+#include "solvers/linear_models/model_reduction.hpp"
+#include "solvers/linear_models/multi_blade_model.hpp"
 #include "turbines/analysis/settings.hpp"
 #include "turbines/analysis/wind_run.hpp"
 #include "turbines/machine/machine.hpp"

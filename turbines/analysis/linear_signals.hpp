@@ -1,7 +1,7 @@
 /// @file Inputs and outputs of a machine's linear models, by name.
 #pragma once
 
-#include "solvers/control/state_space.hpp"
+#include "solvers/linear_models/state_space.hpp"
 #include "turbines/model/assembly.hpp"
 
 #include <string>

@@ -15,7 +15,7 @@ namespace cardan::turbines {
 namespace {
 
 void set_yaw(YawDof asked, Machine& machine) {
-    Bearing& yaw = machine.description.yaw.rotation;
+    JointSupport& yaw = machine.description.yaw.rotation;
     if (asked == YawDof::locked) yaw = rigid_joint;
     if (asked == YawDof::prescribed) yaw = driven_joint;
     if (asked != YawDof::free || !yaw.is_rigid()) return;
@@ -44,15 +44,15 @@ void set_foundation(const MachineSettings& settings, Machine& machine) {
     machine.description.platform = settings.foundation;
 }
 
-void set_pitch_bearing(const MachineSettings& settings, Bearing& pitch) {
+void set_pitch_bearing(const MachineSettings& settings, JointSupport& pitch) {
     if (settings.pitch_stiffness) {
         require_positive("MachineSettings::pitch_stiffness", "value [N m/rad]", *settings.pitch_stiffness);
-        pitch.hold = Bearing::Hold::spring;
+        pitch.kind = JointSupport::Kind::spring;
         pitch.stiffness = *settings.pitch_stiffness;
     }
     if (!settings.pitch_damping) return;
     require_not_negative("MachineSettings::pitch_damping", "value [N m s/rad]", *settings.pitch_damping);
-    if (pitch.hold != Bearing::Hold::spring && pitch.hold != Bearing::Hold::free)
+    if (pitch.kind != JointSupport::Kind::spring && pitch.kind != JointSupport::Kind::free)
         throw InputError(
             "MachineSettings::pitch_damping", "value [N m s/rad]", *settings.pitch_damping,
             "none beside pitch bearings without a spring: MachineSettings::pitch_stiffness gives them one");

@@ -13,10 +13,10 @@
 #pragma once
 
 #include "elements/aerodynamics/wind.hpp"
-#include "elements/control/variable_speed_controller.hpp"
+#include "elements/controllers/variable_speed_controller.hpp"
 #include "solvers/time/integrate.hpp"
+#include "turbines/actuators/actuators.hpp"
 #include "turbines/analysis/remark.hpp"
-#include "turbines/control/actuators.hpp"
 #include "turbines/model/station_channels.hpp"
 #include "turbines/operation/aeroelastic.hpp"
 

@@ -6,7 +6,7 @@ namespace cardan::turbines {
 
 EquivalentCircuit wt600_equivalent_circuit() {
     const Grid grid = wt600_grid();
-    return equivalent_circuit(wt600_induction_machine(), grid.line_voltage, grid.frequency);
+    return equivalent_circuit(wt600_kloss_curve(), grid.line_voltage, grid.frequency);
 }
 
 Grid wt600_grid() {

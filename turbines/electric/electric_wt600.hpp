@@ -3,7 +3,7 @@
 #pragma once
 
 #include "elements/electric/induction_machine.hpp"
-#include "turbines/machines/wt600_operation.hpp"
+#include "turbines/reference_turbines/wt600_operation.hpp"
 
 namespace cardan::turbines {
 

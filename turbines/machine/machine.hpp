@@ -63,7 +63,7 @@ struct MachineOperation {
 struct Machine {
     TurbineDescription description;
     /// Spring of the yaw drive, even if the yaw bearing is locked; rigid: none is given.
-    Bearing yaw_drive = rigid_joint;
+    JointSupport yaw_drive = rigid_joint;
     Site site = {};
     MachineOperation operation = {};
     ModelController controller = {};

@@ -2,7 +2,7 @@
 /// From a description to a system: tower, yaw joint, nacelle, tilt joint, drive train, hub, blades.
 #pragma once
 
-#include "elements/machine/coordinate_force.hpp"
+#include "elements/machine_elements/coordinate_force.hpp"
 #include "mbs/model/rotor_map.hpp"
 #include "mbs/system/system.hpp"
 #include "turbines/model/assembly_options.hpp"

@@ -9,7 +9,7 @@ namespace cardan::turbines {
 
 namespace {
 
-using Hold = Bearing::Hold;
+using Hold = JointSupport::Kind;
 
 // The units of a spring: about or along an axis.
 struct SpringUnits {
@@ -17,25 +17,25 @@ struct SpringUnits {
 };
 constexpr SpringUnits about{" [N m/rad]", " [N m s/rad]"}, along{" [N/m]", " [N s/m]"};
 
-void check_bearing(const std::string& machine, const std::string& field, const Bearing& bearing,
+void check_bearing(const std::string& machine, const std::string& field, const JointSupport& bearing,
                    const SpringUnits& units) {
     const std::string stiffness = text(field, ".stiffness", units.stiffness),
                       damping = text(field, ".damping", units.damping);
-    const bool spring = bearing.hold == Hold::spring, has_damper = spring || bearing.hold == Hold::free;
+    const bool spring = bearing.kind == Hold::spring, has_damper = spring || bearing.kind == Hold::free;
     if (spring && std::isnan(bearing.stiffness))
         throw InputError(machine, stiffness, "not given", "> 0, or free_joint, rigid_joint, driven_joint");
     if (spring && !(bearing.stiffness > 0 && std::isfinite(bearing.stiffness)))
         throw InputError(machine, stiffness, bearing.stiffness,
                          "finite and > 0; without a spring it is a free_joint, if it does not move a rigid_joint");
     if (!spring && bearing.stiffness != 0)
-        throw InputError(machine, stiffness, bearing.stiffness, "0: only Bearing::Hold::spring has a spring");
+        throw InputError(machine, stiffness, bearing.stiffness, "0: only JointSupport::Kind::spring has a spring");
     if (has_damper) return require_not_negative(machine, damping, bearing.damping);
     if (bearing.damping != 0) throw InputError(machine, damping, bearing.damping, "0: the joint is rigid or driven");
 }
 
-void check_shaft(const std::string& machine, const std::string& field, const Bearing& shaft) {
-    if (shaft.hold == Hold::free || shaft.hold == Hold::driven)
-        throw InputError(machine, field, shaft.hold == Hold::free ? "free" : "driven",
+void check_shaft(const std::string& machine, const std::string& field, const JointSupport& shaft) {
+    if (shaft.kind == Hold::free || shaft.kind == Hold::driven)
+        throw InputError(machine, field, shaft.kind == Hold::free ? "free" : "driven",
                          "a spring, or rigid_joint; the rotor is driven by drive_train.spin");
     check_bearing(machine, field, shaft, about);
 }
@@ -76,7 +76,7 @@ void check_damping(const BeamDamping& damping, const std::string& field, const R
 
 void check_linkage(const std::string& machine, const BladeDescription& blade, const std::string& field) {
     const PitchLinkage& linkage = *blade.linkage;
-    if (blade.pitch.hold == Hold::driven || blade.pitch.is_rigid())
+    if (blade.pitch.kind == Hold::driven || blade.pitch.is_rigid())
         throw InputError(machine, field + ".pitch", blade.pitch.is_rigid() ? "rigid" : "driven",
                          "free_joint or a spring: the linkage turns the blade");
     for (const auto& [name, v] : {std::pair{".linkage.crank_pin", &linkage.crank_pin},
@@ -84,7 +84,7 @@ void check_linkage(const std::string& machine, const BladeDescription& blade, co
                                   {".linkage.direction", &linkage.direction}})
         if (!v->allFinite()) throw InputError(machine, field + name, v->transpose(), "finite");
     if (linkage.direction.isZero(0)) throw InputError(machine, field + ".linkage.direction", "0 0 0", "a direction");
-    if (linkage.actuator.hold != Hold::driven && linkage.actuator.hold != Hold::spring)
+    if (linkage.actuator.kind != Hold::driven && linkage.actuator.kind != Hold::spring)
         throw InputError(machine, field + ".linkage.actuator", linkage.actuator.is_rigid() ? "rigid" : "free",
                          "driven or a spring");
     check_bearing(machine, field + ".linkage.actuator", linkage.actuator, along);

@@ -17,7 +17,7 @@
 namespace cardan::turbines {
 
 /// Support of a joint of a machine: bearings, drives, shafts. One that was not given is refused by name on assembly.
-struct Bearing {
+struct JointSupport {
     enum class Hold : std::uint8_t {
         spring,  ///< spring and damper
         free,    ///< nothing but the damper
@@ -30,8 +30,8 @@ struct Bearing {
 
     bool is_rigid() const { return hold == Hold::rigid; }
 };
-inline constexpr Bearing free_joint{0, 0, Bearing::Hold::free}, rigid_joint{0, 0, Bearing::Hold::rigid},
-    driven_joint{0, 0, Bearing::Hold::driven};
+inline constexpr JointSupport free_joint{0, 0, JointSupport::Kind::free}, rigid_joint{0, 0, JointSupport::Kind::rigid},
+    driven_joint{0, 0, JointSupport::Kind::driven};
 
 struct TowerDescription {
     BeamLine line;                  ///< from the ground up
@@ -45,27 +45,28 @@ struct TowerDescription {
 };
 
 struct YawDescription {
-    Bearing rotation;                   ///< about the tower axis
-    Bearing translation = rigid_joint;  ///< along ground x and y each
+    JointSupport rotation;                   ///< about the tower axis
+    JointSupport translation = rigid_joint;  ///< along ground x and y each
 };
 
 struct NacelleDescription {
-    RigidInertia inertia;                ///< ground axes, origin at the tower top
-    double shaft_height = 0;             ///< shaft axis above the tower top where it meets the tower axis, m
-    double tilt = 0;                     ///< upwind end of the shaft up, rad
-    double overhang = 0;                 ///< from the tower axis to the rotor centre along the shaft, m; upwind
-                                         ///< positive, a downwind rotor has a negative one
-    Bearing tilt_bearing = rigid_joint;  ///< elastic main frame: rotation about the lateral axis at the shaft height
+    RigidInertia inertia;     ///< ground axes, origin at the tower top
+    double shaft_height = 0;  ///< shaft axis above the tower top where it meets the tower axis, m
+    double tilt = 0;          ///< upwind end of the shaft up, rad
+    double overhang = 0;      ///< from the tower axis to the rotor centre along the shaft, m; upwind
+                              ///< positive, a downwind rotor has a negative one
+    JointSupport tilt_bearing =
+        rigid_joint;  ///< elastic main frame: rotation about the lateral axis at the shaft height
 };
 
 /// Serial drive train generator - gearbox - hub; inertias spin relative to the nacelle and count on the slow side
 /// (fast side times the gear ratio squared).
 struct DriveTrainDescription {
     double gear_ratio = 1;
-    double generator_inertia = 0;            ///< fast side, kg m^2; not zero if one of the shafts is elastic
-    double gearbox_inertia = 0;              ///< slow side, kg m^2; if it is zero one of the shafts must be rigid
-    Bearing high_speed_shaft = rigid_joint;  ///< fast side, generator - gearbox; spring or rigid
-    Bearing main_shaft;                      ///< slow side, gearbox - hub; spring or rigid
+    double generator_inertia = 0;                 ///< fast side, kg m^2; not zero if one of the shafts is elastic
+    double gearbox_inertia = 0;                   ///< slow side, kg m^2; if it is zero one of the shafts must be rigid
+    JointSupport high_speed_shaft = rigid_joint;  ///< fast side, generator - gearbox; spring or rigid
+    JointSupport main_shaft;                      ///< slow side, gearbox - hub; spring or rigid
     /// What else turns with the generator's coordinate: x downwind along the shaft, z up at azimuth 0, origin on the
     /// tower axis.
     RigidInertia shaft;
@@ -76,7 +77,7 @@ struct DriveTrainDescription {
 
 /// A hub that rocks on a pin across the shaft.
 struct TeeterDescription {
-    Bearing bearing;
+    JointSupport bearing;
     double undersling = 0;  ///< the point where the blade axes meet lies this far upwind of the teeter axis, m
     double delta3 = 0;      ///< rotation of the teeter axis in the rotor plane, rad; positive: a blade that teeters
                             ///< downwind pitches its leading edge upwind by tan(delta3) times the teeter angle
@@ -107,14 +108,14 @@ struct PitchLinkage {
     Vec3 actuator_pin = Vec3::Zero();  ///< of the actuator at no stroke, m
     Vec3 direction = Vec3::Zero();     ///< of its stroke; its length does not matter
     /// Driven: the stroke is prescribed. A spring: the stroke is commanded as its rest (zero), the actuator yields.
-    Bearing actuator = driven_joint;
+    JointSupport actuator = driven_joint;
     double mass = 1;  ///< of what the actuator moves, kg, > 0
 };
 
 struct BladeDescription {
     BeamLine line;        ///< from the root out; x radial, y to the leading edge, z downwind
     double tip_mass = 0;  ///< of a tip brake, a point at the end of the line, kg
-    Bearing pitch;        ///< pitch bearing or drive
+    JointSupport pitch;   ///< pitch bearing or drive
     /// About the pitch axis, beside that of the sections, kg m^2: of what turns with the blade in its bearing, or of a
     /// blade whose sections have none. It resists the pitch alone (an armature); without effect on a rigid bearing.
     double pitch_inertia = 0;

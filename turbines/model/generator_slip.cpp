@@ -6,7 +6,7 @@
 
 namespace cardan::turbines {
 
-double slip_damping(const InductionMachine& law, double gear_ratio, double torque) {
+double slip_damping(const KlossCurve& law, double gear_ratio, double torque) {
     constexpr const char* place = "generator slip";
     law.check(place);
     const double part = torque / law.breakdown_torque;
@@ -18,7 +18,7 @@ double slip_damping(const InductionMachine& law, double gear_ratio, double torqu
     return gear_ratio * gear_ratio * law.slope(law.synchronous_speed * (1 + r * law.breakdown_slip));
 }
 
-Turbine with_generator_slip(const Turbine& turbine, const InductionMachine& law, double torque) {
+Turbine with_generator_slip(const Turbine& turbine, const KlossCurve& law, double torque) {
     const MachineLayout& layout = turbine.layout();
     if (!layout.generator) throw InputError(turbine.rotor().machine, "generator", "none", "one that slips");
     ForceSet forces = turbine.forces();

@@ -8,7 +8,7 @@
 /// and the angles of R = R_z(yaw) R_y(pitch) R_x(roll), rad.
 #pragma once
 
-#include "elements/machine/moving_base.hpp"
+#include "elements/machine_elements/moving_base.hpp"
 #include "mbs/system/forces.hpp"
 
 #include <span>

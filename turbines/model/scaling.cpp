@@ -18,12 +18,12 @@ RigidInertia scaled(const RigidInertia& body, double s) {
     return out;
 }
 
-Bearing rotational(const Bearing& bearing, double s) {
-    return {bearing.stiffness * power(s, 3), bearing.damping * power(s, 4), bearing.hold};
+JointSupport rotational(const JointSupport& bearing, double s) {
+    return {bearing.stiffness * power(s, 3), bearing.damping * power(s, 4), bearing.kind};
 }
 
-Bearing translational(const Bearing& bearing, double s) {
-    return {bearing.stiffness * s, bearing.damping * power(s, 2), bearing.hold};
+JointSupport translational(const JointSupport& bearing, double s) {
+    return {bearing.stiffness * s, bearing.damping * power(s, 2), bearing.kind};
 }
 
 BeamDamping scaled(const BeamDamping& damping, double s) {

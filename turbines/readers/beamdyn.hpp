@@ -11,8 +11,8 @@ namespace cardan::turbines {
 
 struct BeamDynBlade {
     ElastoDynBeam beam;
-    Bearing pitch = rigid_joint;  ///< pitch drive, where UsePitchAct is True
-    double pitch_inertia = 0;     ///< of that drive, kg m^2
+    JointSupport pitch = rigid_joint;  ///< pitch drive, where UsePitchAct is True
+    double pitch_inertia = 0;          ///< of that drive, kg m^2
 };
 
 /// The main file and the blade file it names. The reference line is the spline through the key points (straight pieces

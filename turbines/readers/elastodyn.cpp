@@ -288,7 +288,7 @@ private:
     // Of the bearing, unless BeamDyn gives that of its drive. BeamDyn's sections have inertia about their axis; those
     // of ElastoDyn have none, and BlPIner is that of the whole blade. Of the first blade where another one is not
     // given.
-    double pitch_inertia(int k, const Bearing& drive, double of_drive) {
+    double pitch_inertia(int k, const JointSupport& drive, double of_drive) {
         const std::string bearing = numbered("PBrIner", k), blade = numbered("BlPIner", k);
         if (context_.blade)
             file_.note_unless(blade, 0, "inertia of the blade about its axis: that of BeamDyn's sections");

@@ -33,7 +33,7 @@ ElastoDynBeam elastodyn_tower(const std::filesystem::path& path, double length);
 /// A blade and its pitch drive from another file than ElastoDyn's.
 struct ElastoDynOtherBlade {
     ElastoDynBeam beam;
-    Bearing pitch = rigid_joint;
+    JointSupport pitch = rigid_joint;
     double pitch_inertia = 0;
     std::string file;
 };
@@ -41,8 +41,8 @@ struct ElastoDynOtherBlade {
 /// Data from other files of a model that replace ElastoDyn's.
 struct ElastoDynContext {
     std::optional<ElastoDynBeam> blade = std::nullopt;  ///< from BeamDyn; BldFile is not read then
-    Bearing yaw = rigid_joint;                          ///< of the yaw drive (ServoDyn), where YawDOF is True
-    Bearing pitch = rigid_joint;                        ///< of the pitch drive (BeamDyn)
+    JointSupport yaw = rigid_joint;                     ///< of the yaw drive (ServoDyn), where YawDOF is True
+    JointSupport pitch = rigid_joint;                   ///< of the pitch drive (BeamDyn)
     double pitch_inertia = 0;                           ///< of that drive, kg m^2
     std::map<int, ElastoDynOtherBlade> individual_blades =
         {};  ///< from BeamDyn, by number, where they have files of their own

@@ -148,10 +148,10 @@ ModelController controller_of(OpenFastFile& file, const Generator& machine, bool
     return controller;
 }
 
-Bearing yaw_drive(OpenFastFile& file) {
-    const Bearing drive{file.not_negative("YawSpr"), file.not_negative("YawDamp")};
+JointSupport yaw_drive(OpenFastFile& file) {
+    const JointSupport drive{file.not_negative("YawSpr"), file.not_negative("YawDamp")};
     file.left_out_unless("YawNeut", 0, "the nacelle points into the wind here");
-    return drive.stiffness == 0 ? Bearing{0, drive.damping, Bearing::Hold::free} : drive;
+    return drive.stiffness == 0 ? JointSupport{0, drive.damping, JointSupport::Kind::free} : drive;
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 /// hold.
 #pragma once
 
-#include "elements/control/torque_law.hpp"
-#include "elements/control/variable_speed_controller.hpp"
+#include "elements/controllers/torque_law.hpp"
+#include "elements/controllers/variable_speed_controller.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/model/description.hpp"
 #include "turbines/model/pitch_schedule.hpp"
@@ -127,7 +127,7 @@ struct TurbineFile {
     TurbineDescription description;
     /// Spring of the yaw drive, even if the files lock the yaw bearing and it is rigid in the description; rigid: the
     /// files give no spring.
-    Bearing yaw_drive = rigid_joint;
+    JointSupport yaw_drive = rigid_joint;
     std::vector<FileNote> notes;
     double rotor_speed = 0;          ///< rated or initial rotor speed, rad/s; 0: not given in the files
     std::string rotor_speed_source;  ///< where the rotor speed is from: a keyword and its file

@@ -2,7 +2,7 @@
 /// Equations of a circuit over its loops, evaluated without allocation.
 #pragma once
 
-#include "elements/control/control_signal.hpp"
+#include "elements/controllers/control_signal.hpp"
 #include "elements/electric/inductance.hpp"
 #include "mbs/base/decompositions.hpp"
 

@@ -2,7 +2,7 @@
 /// Elements with states from one formula, written for any scalar: derivatives by complex step, exact to rounding.
 #pragma once
 
-#include "elements/control/control_signal.hpp"
+#include "elements/controllers/control_signal.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/system/force_element.hpp"
 

@@ -3,8 +3,8 @@
 #include "examples/studies/beam_accuracy/chain.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/machines/nrel5mw_blade.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/reference_turbines/nrel5mw_blade.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 #include <cmath>
 

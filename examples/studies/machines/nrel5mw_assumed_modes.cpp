@@ -1,6 +1,6 @@
 #include "examples/studies/machines/nrel5mw_assumed_modes.hpp"
 
-#include "turbines/machines/nrel5mw_geometry.hpp"
+#include "turbines/reference_turbines/nrel5mw_geometry.hpp"
 
 namespace cardan::turbines {
 

@@ -1,11 +1,12 @@
 /// @file
 /// An assumed-modes model of the NREL 5 MW blade, clamped to a hub with prescribed motion: an independent check of the
-/// joint chain of turbines/machines/nrel5mw_blade.hpp, and the model of a 2018 paper (docs/nrel5mw_paper2018.md).
+/// joint chain of turbines/reference_turbines/nrel5mw_blade.hpp, and the model of a 2018 paper
+/// (docs/nrel5mw_paper2018.md).
 #pragma once
 
 #include "examples/studies/beams/assumed_modes_blade.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/machines/nrel5mw_blade.hpp"
+#include "turbines/reference_turbines/nrel5mw_blade.hpp"
 
 namespace cardan::turbines {
 
@@ -28,7 +29,7 @@ AssumedModesBlade nrel5mw_blade_converged(const BeamLine& line = nrel5mw_blade()
 /// @param rotor_speed  rad/s
 HubMotion nrel5mw_spinning_hub(double rotor_speed);
 
-/// Motion of the machine of turbines/machines/nrel5mw_platform.hpp, with the signs given there.
+/// Motion of the machine of turbines/reference_turbines/nrel5mw_platform.hpp, with the signs given there.
 struct Nrel5mwMotion {
     PrescribedCoordinate surge, sway, heave;    ///< downwind; to the right seen along the wind; up
     PrescribedCoordinate roll, pitch, yaw;      ///< pitch positive: the top of the tower moves upwind

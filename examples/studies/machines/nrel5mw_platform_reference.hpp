@@ -1,6 +1,6 @@
 /// @file
-/// The reference response of the blade of turbines/machines/nrel5mw_platform.hpp: on a platform at rest, and on one
-/// that pitches at half the rotor's frequency (docs/nrel5mw_platform.md).
+/// The reference response of the blade of turbines/reference_turbines/nrel5mw_platform.hpp: on a platform at rest, and
+/// on one that pitches at half the rotor's frequency (docs/nrel5mw_platform.md).
 #pragma once
 
 #include <array>

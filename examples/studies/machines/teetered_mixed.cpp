@@ -1,6 +1,6 @@
 #include "examples/studies/machines/teetered_mixed.hpp"
 
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "mbs/base/error.hpp"
 
 #include <array>
@@ -25,8 +25,8 @@ void check(const TurbineDescription& d) {
     };
     require("platform", !d.platform, "none");
     require("number of blades", d.blades == 2 && d.individual_blades.empty(), "2, equal ones");
-    const auto turns = [](const Bearing& bearing) {
-        return bearing.hold == Bearing::Hold::free || bearing.hold == Bearing::Hold::spring;
+    const auto turns = [](const JointSupport& bearing) {
+        return bearing.kind == JointSupport::Kind::free || bearing.kind == JointSupport::Kind::spring;
     };
     require("hub", d.hub.teeter && turns(d.hub.teeter->bearing), "with a teeter bearing, free or with a spring");
     require("yaw bearing", turns(d.yaw.rotation), "free or with a spring");

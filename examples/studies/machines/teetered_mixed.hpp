@@ -4,7 +4,7 @@
 #pragma once
 
 #include "examples/studies/beams/mixed_beam.hpp"
-#include "turbines/machines/teetered.hpp"
+#include "turbines/reference_turbines/teetered.hpp"
 
 #include <cstdint>
 #include <optional>

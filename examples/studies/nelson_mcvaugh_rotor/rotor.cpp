@@ -1,7 +1,7 @@
 #include "examples/studies/nelson_mcvaugh_rotor/rotor.hpp"
 
 #include "elements/cardan_beam/cardan_beam.hpp"
-#include "elements/machine/bushing.hpp"
+#include "elements/machine_elements/bushing.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/units.hpp"
-#include "turbines/machines/nrel5mw_platform.hpp"
+#include "turbines/reference_turbines/nrel5mw_platform.hpp"
 
 #include <algorithm>
 #include <cmath>

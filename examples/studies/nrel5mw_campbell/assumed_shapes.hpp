@@ -4,8 +4,8 @@
 
 #include "mbs/base/entry.hpp"
 #include "solvers/periodic/azimuth_average.hpp"
-#include "turbines/machines/nrel5mw_shapes.hpp"
 #include "turbines/model/assembly.hpp"
+#include "turbines/reference_turbines/nrel5mw_shapes.hpp"
 
 namespace cardan::nrel5mw_campbell {
 

@@ -5,7 +5,7 @@
 #include "mbs/base/units.hpp"
 #include "programs/shared/program.hpp"
 #include "solvers/pictures/history.hpp"
-#include "turbines/machines/nrel5mw_controller.hpp"
+#include "turbines/reference_turbines/nrel5mw_controller.hpp"
 
 #include <algorithm>
 #include <cmath>

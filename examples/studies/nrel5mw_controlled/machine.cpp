@@ -1,12 +1,12 @@
 #include "examples/studies/nrel5mw_controlled/machine.hpp"
 
-#include "elements/control/variable_speed_equivalent.hpp"
+#include "elements/controllers/variable_speed_equivalent.hpp"
 #include "examples/studies/drive_train.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/outcome.hpp"
 #include "mbs/kernels/metric.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
-#include "turbines/machines/nrel5mw_controller.hpp"
+#include "turbines/reference_turbines/nrel5mw_controller.hpp"
 
 #include <cmath>
 #include <map>

@@ -5,9 +5,9 @@
 
 #include "examples/studies/nrel5mw_controlled/wind.hpp"
 #include "solvers/linear/modes.hpp"
+#include "turbines/actuators/actuators.hpp"
 #include "turbines/analysis/controlled_machine.hpp"
-#include "turbines/control/actuators.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
 
 #include <functional>
 #include <string>

@@ -1,10 +1,10 @@
 #include "examples/studies/nrel5mw_controlled/wind.hpp"
 
-#include "elements/control/variable_speed_controller.hpp"
+#include "elements/controllers/variable_speed_controller.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/words.hpp"
-#include "turbines/machines/nrel5mw_controller.hpp"
+#include "turbines/reference_turbines/nrel5mw_controller.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 /// on wind speed and pitch.
 #pragma once
 
-#include "elements/machine/rotor_load.hpp"
+#include "elements/machine_elements/rotor_load.hpp"
 #include "mbs/base/units.hpp"
 
 #include <string>

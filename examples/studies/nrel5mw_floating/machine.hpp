@@ -3,7 +3,7 @@
 #pragma once
 
 #include "solvers/equilibrium/steady_state.hpp"
-#include "turbines/machines/oc3_hywind.hpp"
+#include "turbines/reference_turbines/oc3_hywind.hpp"
 
 #include <array>
 #include <optional>

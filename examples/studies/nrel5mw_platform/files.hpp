@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solvers/time/recorder.hpp"
-#include "turbines/machines/nrel5mw_platform.hpp"
+#include "turbines/reference_turbines/nrel5mw_platform.hpp"
 
 #include <initializer_list>
 #include <string>

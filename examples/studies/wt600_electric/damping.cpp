@@ -26,7 +26,7 @@ turbines::Turbine machine_at(const MotionOptions& o, std::optional<MachineOrder>
     if (!order)
         return turbines::with_generator_slip(
             turbines::wt600(program::elements_of_paper(o.blade_elements, o.tower_elements)),
-            turbines::wt600_induction_machine());
+            turbines::wt600_kloss_curve());
     turbines::ElectricWt600Options options;
     options.assembly = program::elements_of_paper(o.blade_elements, o.tower_elements);
     options.wind = 0;

@@ -1,7 +1,7 @@
 // A rotor of many diameters on two bearings by the beam element: whirl speeds and critical speeds of Nelson and McVaugh
 // (1976). References: exact transfer matrices and finite elements of Rayleigh's and Timoshenko's beam.
 #include "elements/cardan_beam/cardan_beam.hpp"
-#include "elements/machine/bushing.hpp"
+#include "elements/machine_elements/bushing.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"

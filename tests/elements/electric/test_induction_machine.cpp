@@ -141,17 +141,17 @@ TEST_CASE("induction machine: torque and current of the equivalent circuit", "[d
 TEST_CASE("induction machine: without stator resistance the steady curve is Kloss' formula", "[analytic]") {
     EquivalentCircuit circuit = large.circuit;
     circuit.stator_resistance = 0;
-    const InductionMachine kloss = circuit.without_stator_resistance(1000);
+    const KlossCurve kloss = circuit.without_stator_resistance(1000);
     for (const double slip : {-0.3, -0.02, -0.001, 0.01, 0.4})
         CHECK(circuit.steady(1000, slip).torque ==
               Approx(kloss.torque(circuit.synchronous_speed() * (1 - slip))).epsilon(1e-10));
 }
 
 TEST_CASE("induction machine: a circuit made of Kloss' numbers has them", "[property]") {
-    const InductionMachine kloss{.synchronous_speed = 2 * pi * 25, .breakdown_torque = 9000, .breakdown_slip = 0.06};
+    const KlossCurve kloss{.synchronous_speed = 2 * pi * 25, .breakdown_torque = 9000, .breakdown_slip = 0.06};
     const EquivalentCircuit circuit = equivalent_circuit(kloss, 690, 50);
     CHECK(circuit.pole_pairs == 2);
-    const InductionMachine back = circuit.without_stator_resistance(690 * std::sqrt(2.0 / 3));
+    const KlossCurve back = circuit.without_stator_resistance(690 * std::sqrt(2.0 / 3));
     CHECK(back.synchronous_speed == Approx(kloss.synchronous_speed));
     CHECK(back.breakdown_torque == Approx(9000));
     CHECK(back.breakdown_slip == Approx(0.06));

@@ -1,5 +1,5 @@
 // Numbers for coordinates by their names.
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "mbs/model/model.hpp"
 #include "mbs/model/solids.hpp"
 #include "tests/support/catch.hpp"

@@ -1,7 +1,7 @@
 // Every function template that the libraries instantiate, named so that the linker has to find its symbol: what depends
 // on a scalar is written out in it, and compilers may differ in how. The test `instantiations` looks for all of them
 // here.
-#include <cardan/elements/machine/rotor_load.hpp>
+#include <cardan/elements/machine_elements/rotor_load.hpp>
 #include <cardan/mbs/kernels/christoffel.hpp>
 #include <cardan/mbs/kernels/dynamics.hpp>
 #include <cardan/mbs/kernels/lagrange.hpp>

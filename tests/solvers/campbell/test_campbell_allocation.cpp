@@ -3,7 +3,7 @@
 #include "tests/solvers/small_rotor.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 using namespace cardan;
 using namespace cardan::solvers;

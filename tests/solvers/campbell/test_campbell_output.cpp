@@ -10,7 +10,7 @@
 #include "solvers/pictures/campbell.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Equilibria and small oscillations of mechanisms with loops.
-#include "elements/machine/point_spring.hpp"
+#include "elements/machine_elements/point_spring.hpp"
 #include "solvers/equilibrium/buckling.hpp"
 #include "solvers/equilibrium/load_curve.hpp"
 #include "solvers/equilibrium/load_path.hpp"

@@ -1,6 +1,6 @@
 // Periodic steady states and Floquet theory with closed loops: against the kinematics of a slider-crank in closed form,
 // Hill's equation of a pendulum on its slider, and the same machine as a tree.
-#include "elements/machine/point_spring.hpp"
+#include "elements/machine_elements/point_spring.hpp"
 #include "solvers/periodic/floquet.hpp"
 #include "solvers/periodic/steady_state.hpp"
 #include "tests/mbs/loops/closed_trees.hpp"

@@ -1,6 +1,6 @@
 // Mechanisms with loops in time: benchmarks of the International Federation for the Promotion of Mechanism and Machine
 // Science (IFToMM) and of the test set for initial value problems, order of convergence, drift, events, checkpoints.
-#include "elements/machine/point_spring.hpp"
+#include "elements/machine_elements/point_spring.hpp"
 #include "tests/mbs/loops/closed_trees.hpp"
 #include "tests/oracles/pendulum.hpp"
 #include "tests/solvers/time/integrated_systems.hpp"

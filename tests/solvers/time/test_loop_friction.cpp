@@ -1,6 +1,6 @@
 // Dry friction in loops: a mechanism passes its dead points, comes to rest where its energy is used up, and stays.
 // References: the balance of energy along the one coordinate that there is, in closed form but for a quadrature.
-#include "elements/machine/friction.hpp"
+#include "elements/machine_elements/friction.hpp"
 #include "solvers/time/stick_slip.hpp"
 #include "tests/mbs/loops/closed_trees.hpp"
 #include "tests/solvers/time/crank_motion.hpp"

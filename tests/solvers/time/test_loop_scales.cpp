@@ -1,6 +1,6 @@
 // Loops of any size, and bodies of any weight in them: accelerations beside closed forms, and the same mechanism in
 // other units, whose numbers must be the same after conversion.
-#include "elements/machine/point_spring.hpp"
+#include "elements/machine_elements/point_spring.hpp"
 #include "mbs/kernels/dynamics.hpp"
 #include "solvers/equilibrium/natural_modes.hpp"
 #include "solvers/linear/loop_reduction.hpp"

@@ -1,4 +1,4 @@
-#include "elements/machine/joints.hpp"
+#include "elements/machine_elements/joints.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/model/solids.hpp"
 #include "mbs/system/joint_channels.hpp"

@@ -9,7 +9,7 @@
 #include "solvers/time/recorder.hpp"
 #include "tests/oracles/rotating_blade.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/machines/nrel5mw_platform.hpp"
+#include "turbines/reference_turbines/nrel5mw_platform.hpp"
 #include "turbines/tables/csv.hpp"
 #include "turbines/tables/detail/embedded_data.hpp"
 

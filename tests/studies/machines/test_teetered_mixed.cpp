@@ -4,9 +4,9 @@
 #include "solvers/equilibrium/steady_state.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/teetered/hill.hpp"
-#include "tests/turbines/machines/teetered/teetered_floquet.hpp"
-#include "tests/turbines/machines/teetered/teetered_machine.hpp"
+#include "tests/turbines/reference_turbines/teetered/hill.hpp"
+#include "tests/turbines/reference_turbines/teetered/teetered_floquet.hpp"
+#include "tests/turbines/reference_turbines/teetered/teetered_machine.hpp"
 
 #include <tuple>
 

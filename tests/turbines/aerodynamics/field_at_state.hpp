@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tests/support/catch.hpp"
-#include "tests/turbines/machines/sampled_channels.hpp"
+#include "tests/turbines/reference_turbines/sampled_channels.hpp"
 
 namespace cardan::testing {
 

@@ -3,10 +3,10 @@
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/sampled_channels.hpp"
+#include "tests/turbines/reference_turbines/sampled_channels.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/aerodynamics/nrel5mw_air.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
 
 namespace cardan::testing::air_lag_tests {
 

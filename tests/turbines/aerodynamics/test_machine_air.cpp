@@ -7,7 +7,7 @@
 #include "tests/turbines/aerodynamics/field_at_state.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/aerodynamics/nrel5mw_air.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
 
 namespace cardan::testing::machine_air_tests {
 

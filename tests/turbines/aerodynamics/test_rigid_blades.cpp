@@ -6,9 +6,9 @@
 #include "tests/turbines/readers/model_files.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
 #include "turbines/aerodynamics/nrel5mw_air.hpp"
-#include "turbines/machines/nrel5mw.hpp"
 #include "turbines/readers/aerodyn.hpp"
 #include "turbines/readers/openfast.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
 
 namespace cardan::testing::rigid_blades {
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "tests/support/random_tree.hpp"
-#include "tests/turbines/machines/sampled_channels.hpp"
+#include "tests/turbines/reference_turbines/sampled_channels.hpp"
 #include "turbines/aerodynamics/machine_air.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
 
 #include <cstdint>
 

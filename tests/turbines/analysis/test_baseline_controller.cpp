@@ -9,7 +9,7 @@
 #include "turbines/analysis/baseline_controller.hpp"
 #include "turbines/analysis/simulation.hpp"
 #include "turbines/machine/read_machine.hpp"
-#include "turbines/machines/nrel5mw_controller.hpp"
+#include "turbines/reference_turbines/nrel5mw_controller.hpp"
 
 #include <cmath>
 

@@ -143,7 +143,7 @@ TEST_CASE("machine settings: damping of blades and tower is that of the first mo
 TEST_CASE("machine settings: springs of the pitch bearings", "[property]") {
     const Machine machine = read_machine("nrel5mw");
     const Machine soft = with_settings(machine, {.pitch_stiffness = 2e7, .pitch_damping = 1e5});
-    CHECK(soft.description.blade.pitch.hold == Bearing::Hold::spring);
+    CHECK(soft.description.blade.pitch.kind == JointSupport::Kind::spring);
     CHECK(soft.description.blade.pitch.stiffness == 2e7);
     CHECK(soft.description.blade.pitch.damping == 1e5);
     Machine rigid = machine;

@@ -2,10 +2,10 @@
 #include "solvers/campbell/diagram.hpp"
 #include "tests/support/catch.hpp"
 #include "turbines/machine/built_in.hpp"
-#include "turbines/machines/nrel5mw.hpp"
-#include "turbines/machines/teetered.hpp"
-#include "turbines/machines/wt600.hpp"
 #include "turbines/model/assembly.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
+#include "turbines/reference_turbines/teetered.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 namespace cardan::testing::built_in_tests {
 

@@ -3,7 +3,7 @@
 #include "mbs/base/units.hpp"
 #include "mbs/model/summary.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/turbines/machines/wt600/test_wt600.hpp"
+#include "tests/turbines/reference_turbines/wt600/test_wt600.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -170,8 +170,8 @@ TEST_CASE("assembly: tower and blades are damped to the ratio given for their fi
         CHECK(mode.mode.damping_ratio() == Approx(0.005 * mode.mode.natural_hz() / f1).epsilon(1e-9));
     // The tower with everything on it but rigid joints and blades: a ratio of 0.005 again.
     turbines::TurbineDescription rigid = d;
-    for (turbines::Bearing* spring : {&rigid.yaw.rotation, &rigid.nacelle.tilt_bearing, &rigid.blade.pitch,
-                                      &rigid.drive_train.main_shaft, &rigid.drive_train.high_speed_shaft})
+    for (turbines::JointSupport* spring : {&rigid.yaw.rotation, &rigid.nacelle.tilt_bearing, &rigid.blade.pitch,
+                                           &rigid.drive_train.main_shaft, &rigid.drive_train.high_speed_shaft})
         *spring = {1e4 * spring->stiffness, 0};
     rigid.yaw.translation = {1e4 * rigid.yaw.translation.stiffness, 0};
     rigid.blade.line.section = [own = d.blade.line.section](double x) {

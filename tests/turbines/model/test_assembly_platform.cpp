@@ -6,9 +6,9 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/floating.hpp"
-#include "tests/turbines/machines/sampled_channels.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "tests/turbines/reference_turbines/floating.hpp"
+#include "tests/turbines/reference_turbines/sampled_channels.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 #include <numeric>
 

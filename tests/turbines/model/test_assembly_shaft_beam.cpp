@@ -1,7 +1,7 @@
 // The main shaft as one beam element in place of the torsion spring.
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/wt600/test_wt600.hpp"
+#include "tests/turbines/reference_turbines/wt600/test_wt600.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;

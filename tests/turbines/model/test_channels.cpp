@@ -3,8 +3,8 @@
 #include "solvers/time/recorder.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/sampled_channels.hpp"
-#include "turbines/machines/wt600_operation.hpp"
+#include "tests/turbines/reference_turbines/sampled_channels.hpp"
+#include "turbines/reference_turbines/wt600_operation.hpp"
 
 #include <set>
 

@@ -2,15 +2,15 @@
 // chain of three inertias written by hand, with the generator free, slipping and locked.
 #include "mbs/base/decompositions.hpp"
 #include "solvers/campbell/diagram.hpp"
-#include "solvers/control/model_reduction.hpp"
-#include "solvers/control/multi_blade_model.hpp"
+#include "solvers/linear_models/model_reduction.hpp"
+#include "solvers/linear_models/multi_blade_model.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/wt600/test_wt600.hpp"
+#include "tests/turbines/reference_turbines/wt600/test_wt600.hpp"
 #include "turbines/analysis/linear_model.hpp"
-#include "turbines/machines/wt600_operation.hpp"
 #include "turbines/model/generator_slip.hpp"
+#include "turbines/reference_turbines/wt600_operation.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -96,7 +96,7 @@ std::array<double, 2> torsion(const turbines::Turbine& machine, RotorSpin spin, 
 }  // namespace
 
 TEST_CASE("generator slip: the damping is the slope of Kloss' curve on the slow side", "[analytic]") {
-    const InductionMachine law = turbines::wt600_induction_machine();
+    const KlossCurve law = turbines::wt600_kloss_curve();
     // Synchronous: 2 T_b / (s_b w_s) times 50^2.
     CHECK(turbines::slip_damping(law, gear_ratio) == Approx(2500 * 2 * 9000 / (0.06 * 50 * pi)).epsilon(1e-13));
     CHECK(turbines::slip_damping(law, gear_ratio) == Approx(4.77e6).epsilon(2e-3));
@@ -112,7 +112,7 @@ TEST_CASE("generator slip: the damping is the slope of Kloss' curve on the slow 
 TEST_CASE("generator slip: drive-train torsion of an otherwise stiff machine is that of three inertias by hand",
           "[analytic]") {
     const turbines::Turbine free = turbines::assemble(stiff(), turbines::wt600_paper_assembly());
-    const turbines::Turbine slipping = turbines::with_generator_slip(free, turbines::wt600_induction_machine());
+    const turbines::Turbine slipping = turbines::with_generator_slip(free, turbines::wt600_kloss_curve());
     ThreeInertias chain{rotor_inertia(free), 0};
     const double speed = turbines::wt600_rated_speed();
     const auto same = [](const std::array<double, 2>& a, const std::array<double, 2>& b) {
@@ -124,7 +124,7 @@ TEST_CASE("generator slip: drive-train torsion of an otherwise stiff machine is 
         same(slowest(free, RotorSpin::prescribed, rotor_speed), chain.torsion(true));
         same(slowest(slipping, RotorSpin::prescribed, rotor_speed), chain.torsion(true));
         ThreeInertias with = chain;
-        with.slip = turbines::slip_damping(turbines::wt600_induction_machine(), gear_ratio);
+        with.slip = turbines::slip_damping(turbines::wt600_kloss_curve(), gear_ratio);
         same(slowest(slipping, RotorSpin::free, rotor_speed), with.torsion(false));
         CHECK(with.torsion(false)[1] > 0.4);
     }
@@ -134,7 +134,7 @@ TEST_CASE("generator slip: drive-train torsion of the machine falls from 4.51 to
           "[discrete]") {
     // Numbers of another implementation, without other damping.
     const turbines::Turbine machine = turbines::wt600(undamped());
-    const turbines::Turbine slipping = turbines::with_generator_slip(machine, turbines::wt600_induction_machine());
+    const turbines::Turbine slipping = turbines::with_generator_slip(machine, turbines::wt600_kloss_curve());
     const auto free = torsion(machine, RotorSpin::free, 27 * rpm), slip = torsion(slipping, RotorSpin::free, 27 * rpm);
     CHECK(free[0] == Approx(4.51).margin(5e-3));
     CHECK(std::abs(free[1]) < 1e-9);
@@ -148,7 +148,7 @@ TEST_CASE(
     "the azimuth remains",
     "[crosscheck]") {
     const turbines::Turbine free = turbines::wt600(turbines::wt600_paper_assembly());
-    const turbines::Turbine slipping = turbines::with_generator_slip(free, turbines::wt600_induction_machine());
+    const turbines::Turbine slipping = turbines::with_generator_slip(free, turbines::wt600_kloss_curve());
     const auto model = [](const turbines::Turbine& machine) {
         return solvers::multi_blade(
             turbines::linearised(machine, {.rotor_speed = 27 * rpm, .outputs = {"GenSpeed"}, .azimuths = 5},
@@ -168,12 +168,12 @@ TEST_CASE(
 }
 
 TEST_CASE("generator slip: bad input is refused", "[property]") {
-    InductionMachine law = turbines::wt600_induction_machine();
+    KlossCurve law = turbines::wt600_kloss_curve();
     check_refused([&] { (void)turbines::slip_damping(law, gear_ratio, 9000); },
                   {"generator slip: torque [N m] = 9000; allowed: within +-9000, the breakdown torque"});
     law.breakdown_slip = 0;
     check_refused([&] { (void)turbines::slip_damping(law, gear_ratio); }, {"breakdown slip = 0"});
     const turbines::Turbine blade = turbines::isolated_blade(turbines::wt600_description(), {});
-    check_refused([&] { (void)turbines::with_generator_slip(blade, turbines::wt600_induction_machine()); },
+    check_refused([&] { (void)turbines::with_generator_slip(blade, turbines::wt600_kloss_curve()); },
                   {"generator = none; allowed: one that slips"});
 }

@@ -2,7 +2,7 @@
 // beams ten thousand times as stiff.
 #include "mbs/kernels/metric.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/turbines/machines/wt600/test_wt600.hpp"
+#include "tests/turbines/reference_turbines/wt600/test_wt600.hpp"
 #include "turbines/yaml/description.hpp"
 
 using namespace cardan;

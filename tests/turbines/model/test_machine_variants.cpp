@@ -5,13 +5,13 @@
 #include "solvers/time/recorder.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/wt600/test_wt600.hpp"
+#include "tests/turbines/reference_turbines/wt600/test_wt600.hpp"
 #include "turbines/model/channels.hpp"
 
 namespace cardan::testing::machine_variants {
 
-using turbines::Bearing;
 using turbines::free_joint;
+using turbines::JointSupport;
 using turbines::rigid_joint;
 using turbines::Turbine;
 using D = turbines::TurbineDescription;
@@ -84,11 +84,11 @@ TEST_CASE("machine variants: a bearing that was not given is refused with its na
     check_description_refused([](D& d) { d.hub.teeter.emplace(); }, {"hub.teeter.stiffness", "not given"});
     check_description_refused([](D& d) { d.individual_blades[2].emplace(); }, {"own_blades[2].pitch", "not given"});
     check_description_refused([](D& d) { d.yaw.rotation.stiffness = 0; }, {"yaw.rotation", "= 0", "free_joint"});
-    check_description_refused([](D& d) { d.yaw.rotation.hold = Bearing::Hold::free; },
-                              {"yaw.rotation.stiffness", "only Bearing::Hold::spring"});
+    check_description_refused([](D& d) { d.yaw.rotation.kind = JointSupport::Kind::free; },
+                              {"yaw.rotation.stiffness", "only JointSupport::Kind::spring"});
     check_description_refused(
         [](D& d) {
-            d.yaw.translation = {0, 3, Bearing::Hold::rigid};
+            d.yaw.translation = {0, 3, JointSupport::Kind::rigid};
         },
         {"yaw.translation.damping [N s/m] = 3", "rigid or driven"});
     check_description_refused([](D& d) { d.drive_train.main_shaft = turbines::driven_joint; },

@@ -8,7 +8,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/turbines/readers/model_files.hpp"
-#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
 #include "turbines/yaml/description.hpp"
 
 using namespace cardan;
@@ -19,7 +19,7 @@ using namespace cardan::turbines;
 namespace pitch_linkage_tests {
 
 // Crank of 0.9 m at 20 degrees, actuator at 6 degrees to the blade's normal.
-PitchLinkage linkage(const Bearing& actuator) {
+PitchLinkage linkage(const JointSupport& actuator) {
     const double a0 = 20 * units::degree, t = 6 * units::degree;
     return {.crank_pin = {0.15, 0.9 * std::cos(a0), 0.9 * std::sin(a0)},
             .actuator_pin = {0, 0.75, -1.6},
@@ -30,7 +30,7 @@ PitchLinkage linkage(const Bearing& actuator) {
 
 constexpr double actuator_stiffness = 6e7, angle_by_stroke = 1.2077151796;
 
-TurbineDescription machine(const std::optional<PitchLinkage>& linkage, const Bearing& pitch) {
+TurbineDescription machine(const std::optional<PitchLinkage>& linkage, const JointSupport& pitch) {
     TurbineDescription d = nrel5mw_description();
     d.blade.linkage = linkage;
     d.blade.pitch = pitch;

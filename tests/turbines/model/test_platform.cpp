@@ -10,8 +10,8 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 #include "tests/support/refusal.hpp"
-#include "turbines/machines/nrel5mw_platform.hpp"
 #include "turbines/model/channels.hpp"
+#include "turbines/reference_turbines/nrel5mw_platform.hpp"
 
 namespace cardan::testing::driven_platform {
 

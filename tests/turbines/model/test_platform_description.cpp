@@ -5,7 +5,7 @@
 #include "solvers/time/integrate.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/floating.hpp"
+#include "tests/turbines/reference_turbines/floating.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;

@@ -3,7 +3,7 @@
 #include "mbs/base/units.hpp"
 #include "solvers/time/recorder.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/machines/nrel5mw_platform.hpp"
+#include "turbines/reference_turbines/nrel5mw_platform.hpp"
 
 #include <algorithm>
 #include <numeric>

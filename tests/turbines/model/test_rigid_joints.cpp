@@ -1,11 +1,11 @@
 // Joints that a machine does not have: left out, and the limit of very stiff ones.
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/wt600/test_wt600.hpp"
+#include "tests/turbines/reference_turbines/wt600/test_wt600.hpp"
 
 namespace cardan::testing::rigid_joints {
 
-using turbines::Bearing;
+using turbines::JointSupport;
 using turbines::rigid_joint;
 using D = turbines::TurbineDescription;
 
@@ -20,8 +20,8 @@ turbines::Turbine machine(Change change) {
 
 template <class Change>
 void check_limit(Change change, int fewer, double tolerance) {
-    const turbines::Turbine rigid = machine([&](D&d) { change(d, [](Bearing& b) { b = rigid_joint; }); }),
-                            stiff = machine([&](D&d) { change(d, [](Bearing& b) { b.stiffness *= 1e7; }); });
+    const turbines::Turbine rigid = machine([&](D&d) { change(d, [](JointSupport& b) { b = rigid_joint; }); }),
+                            stiff = machine([&](D&d) { change(d, [](JointSupport& b) { b.stiffness *= 1e7; }); });
     CHECK(rigid.system().model.size() == 70 - fewer);
     const auto f = frequencies(rigid, 27 * rpm), g = frequencies(stiff, 27 * rpm);
     for (std::size_t i = 0; i < 12; ++i) CHECK(f.at(i) == Approx(g.at(i)).epsilon(tolerance));

@@ -1,10 +1,10 @@
 // Machines of another size by the rules of similarity.
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/nrel5mw/test_nrel5mw_machine.hpp"
-#include "turbines/machines/oc3_hywind.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "tests/turbines/reference_turbines/nrel5mw/test_nrel5mw_machine.hpp"
 #include "turbines/model/scaling.hpp"
+#include "turbines/reference_turbines/oc3_hywind.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 using namespace cardan;
 using namespace cardan::testing;

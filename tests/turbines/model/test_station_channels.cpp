@@ -5,9 +5,9 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/turbines/machines/sampled_channels.hpp"
-#include "turbines/machines/wt600_operation.hpp"
+#include "tests/turbines/reference_turbines/sampled_channels.hpp"
 #include "turbines/model/station_channels.hpp"
+#include "turbines/reference_turbines/wt600_operation.hpp"
 
 #include <set>
 

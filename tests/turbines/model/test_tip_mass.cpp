@@ -5,7 +5,7 @@
 #include "mbs/model/summary.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/refusal.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 #include "turbines/yaml/description.hpp"
 
 #include <cmath>

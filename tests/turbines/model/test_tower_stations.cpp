@@ -1,11 +1,11 @@
 // Channels at stations of a uniform tower: deflection, rotation and moment of beam theory, also by its linear model.
 #include "mbs/base/decompositions.hpp"
-#include "solvers/control/state_space.hpp"
 #include "solvers/equilibrium/steady_state.hpp"
+#include "solvers/linear_models/state_space.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/turbines/machines/sampled_channels.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "tests/turbines/reference_turbines/sampled_channels.hpp"
 #include "turbines/model/station_channels.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 namespace cardan::testing::tower_stations {
 

@@ -1,11 +1,11 @@
 // Loads over time on a turbine: thrust by hand, the same loads held constant, a slow ramp in time.
-#include "elements/machine/load_over_time.hpp"
+#include "elements/machine_elements/load_over_time.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/time/recorder.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/turbines/machines/sampled_channels.hpp"
-#include "turbines/machines/wt600.hpp"
+#include "tests/turbines/reference_turbines/sampled_channels.hpp"
 #include "turbines/model/station_channels.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // The NREL 5 MW machine as in the runs of OpenFAST that tests compare with: level, drive train and yaw bearing locked.
 #pragma once
 
-#include "turbines/machines/nrel5mw.hpp"
+#include "turbines/reference_turbines/nrel5mw.hpp"
 
 namespace cardan::testing {
 

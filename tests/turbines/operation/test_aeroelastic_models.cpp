@@ -2,7 +2,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/units.hpp"
 #include "solvers/campbell/point.hpp"
-#include "solvers/control/state_space.hpp"
+#include "solvers/linear_models/state_space.hpp"
 #include "solvers/time/integrate.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/operation/level_machine.hpp"

@@ -4,9 +4,9 @@
 #include "solvers/campbell/diagram.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
-#include "turbines/machines/nrel5mw_blade.hpp"
 #include "turbines/model/assembly.hpp"
 #include "turbines/readers/elastodyn.hpp"
+#include "turbines/reference_turbines/nrel5mw_blade.hpp"
 #include "turbines/tables/csv.hpp"
 #include "turbines/tables/detail/embedded_data.hpp"
 
@@ -100,8 +100,8 @@ TEST_CASE("elastodyn: figures of the main file in the frames and units of the li
     CHECK(d.drive_train.generator_inertia == 4);
     CHECK(d.drive_train.main_shaft.stiffness == 5e6);
     CHECK(d.drive_train.main_shaft.damping == 1e4);
-    for (const Bearing* rigid : {&d.yaw.rotation, &d.yaw.translation, &d.nacelle.tilt_bearing, &d.blade.pitch,
-                                 &d.drive_train.high_speed_shaft})
+    for (const JointSupport* rigid : {&d.yaw.rotation, &d.yaw.translation, &d.nacelle.tilt_bearing, &d.blade.pitch,
+                                      &d.drive_train.high_speed_shaft})
         CHECK(rigid->is_rigid());
 }
 

@@ -68,7 +68,7 @@ TEST_CASE("elastodyn: a hub that teeters has the springs and dampers that act fr
     model.replace(elastodyn_file, "3   NumBl", "2   NumBl");
     model.replace(elastodyn_file, "False   TeetDOF", "True   TeetDOF");
     const auto teeter = [&] { return *read_elastodyn(model / elastodyn_file).description.hub.teeter; };
-    CHECK(teeter().bearing.hold == Bearing::Hold::free);
+    CHECK(teeter().bearing.kind == JointSupport::Kind::free);
     model.replace(elastodyn_file, "0   TeetMod", "1   TeetMod");
     model.replace(elastodyn_file, "0   TeetDmp ", "40000   TeetDmp ");
     model.replace(elastodyn_file, "0   TeetSSSp", "3000   TeetSSSp");
@@ -79,7 +79,7 @@ TEST_CASE("elastodyn: a hub that teeters has the springs and dampers that act fr
     model.replace(elastodyn_file, "0   TeetSStP", "3   TeetSStP");
     model.replace(elastodyn_file, "0   TeetDmpP", "2   TeetDmpP");
     const TurbineFile stops = read_elastodyn(model / elastodyn_file);
-    CHECK(stops.description.hub.teeter->bearing.hold == Bearing::Hold::free);
+    CHECK(stops.description.hub.teeter->bearing.kind == JointSupport::Kind::free);
     CHECK(stops.description.hub.teeter->bearing.damping == 0);
     CHECK(test::has_note(stops.notes, "TeetSStP", "a stop"));
     // What a note means for results.

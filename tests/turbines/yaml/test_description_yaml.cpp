@@ -2,11 +2,11 @@
 #include "elements/sections/tube.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
-#include "turbines/machines/nrel5mw_platform.hpp"
-#include "turbines/machines/oc3_hywind.hpp"
-#include "turbines/machines/teetered.hpp"
-#include "turbines/machines/wt600.hpp"
 #include "turbines/model/assembly.hpp"
+#include "turbines/reference_turbines/nrel5mw_platform.hpp"
+#include "turbines/reference_turbines/oc3_hywind.hpp"
+#include "turbines/reference_turbines/teetered.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 
 using namespace cardan;
 using namespace cardan::turbines;
@@ -107,13 +107,13 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         TurbineDescription d = teetered_description();
         d.hub.teeter->undersling = 1.0 / 3;
         d.hub.teeter->delta3 = 0.1;
-        d.yaw.rotation = {0, 7.0 / 3, Bearing::Hold::free};
+        d.yaw.rotation = {0, 7.0 / 3, JointSupport::Kind::free};
         d.drive_train.shaft.mass = 0.1;
         check_round_trip(d);
         const TurbineDescription read = parse_description(to_yaml(d), "machine.yaml");
         REQUIRE(read.hub.teeter);
         CHECK(read.hub.teeter->undersling == d.hub.teeter->undersling);
-        CHECK(read.hub.teeter->bearing.hold == Bearing::Hold::free);
+        CHECK(read.hub.teeter->bearing.kind == JointSupport::Kind::free);
         CHECK(read.yaw.rotation.damping == 7.0 / 3);
         CHECK(read.rotor_speed == 6.02);
         CHECK(read.drive_train.shaft.mass == 0.1);
@@ -132,7 +132,7 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         const TurbineDescription read = parse_description(to_yaml(d), "machine.yaml");
         CHECK(read.unusual);
         CHECK(read.blade_at(2)->pitch_setting == 1.0 / 7);
-        CHECK(read.blade_at(2)->pitch.hold == Bearing::Hold::driven);
+        CHECK(read.blade_at(2)->pitch.kind == JointSupport::Kind::driven);
         CHECK(read.blade_at(3) == nullptr);
         CHECK(read.blade_at(1) == &read.blade);
     }
@@ -140,7 +140,7 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         const TurbineDescription d =
             read_description(std::string(CARDAN_SOURCE_DIR) + "/tests/fuzz/seeds/description/variants.yaml");
         check_round_trip(d);
-        CHECK(d.yaw.rotation.hold == Bearing::Hold::free);
+        CHECK(d.yaw.rotation.kind == JointSupport::Kind::free);
         CHECK(d.yaw.rotation.damping == 3);
         CHECK(d.hub.teeter->bearing.damping == 100);
         CHECK(d.blade_at(2)->pitch_setting == 0.05);
@@ -211,7 +211,7 @@ TEST_CASE("description yaml: version 1 is read, with its infinite and zero sprin
     const std::size_t at = text.find("stiffness: 2e+07");
     REQUIRE(at != std::string::npos);
     text.replace(at, 16, "stiffness: 0");
-    CHECK(parse_description(text, "old.yaml").yaw.rotation.hold == Bearing::Hold::free);
+    CHECK(parse_description(text, "old.yaml").yaw.rotation.kind == JointSupport::Kind::free);
 }
 
 TEST_CASE("description yaml: a file is written and read", "[property]") {

@@ -4,8 +4,8 @@
 #include "mbs/model/summary.hpp"
 #include "solvers/equilibrium/natural_modes.hpp"
 #include "tests/support/catch.hpp"
-#include "turbines/machines/wt600.hpp"
 #include "turbines/model/description_text.hpp"
+#include "turbines/reference_turbines/wt600.hpp"
 #include "turbines/yaml/description.hpp"
 #include "turbines/yaml/foundation.hpp"
 

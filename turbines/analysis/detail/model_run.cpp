@@ -1,6 +1,6 @@
 #include "turbines/analysis/detail/model_run.hpp"
 
-#include "elements/control/bladed_controller.hpp"
+#include "elements/controllers/bladed_controller.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"

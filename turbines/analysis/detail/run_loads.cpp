@@ -1,7 +1,7 @@
 #include "turbines/analysis/detail/run_loads.hpp"
 
-#include "elements/machine/coordinate_force.hpp"
-#include "elements/machine/load_over_time.hpp"
+#include "elements/machine_elements/coordinate_force.hpp"
+#include "elements/machine_elements/load_over_time.hpp"
 #include "turbines/tables/csv.hpp"
 
 #include <numeric>

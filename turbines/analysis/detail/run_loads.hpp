@@ -2,7 +2,7 @@
 /// Generator and rotor torque of a run in time. Internal to the room.
 #pragma once
 
-#include "elements/control/torque_law.hpp"
+#include "elements/controllers/torque_law.hpp"
 #include "mbs/system/channel.hpp"
 #include "turbines/analysis/settings.hpp"
 #include "turbines/model/assembly.hpp"

@@ -1,7 +1,7 @@
 /// @file Sensors of a controller. Internal to the room.
 #pragma once
 
-#include "elements/control/bladed_controller.hpp"
+#include "elements/controllers/bladed_controller.hpp"
 #include "mbs/system/channel.hpp"
 #include "solvers/time/sampled.hpp"
 #include "turbines/model/assembly.hpp"

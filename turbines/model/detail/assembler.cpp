@@ -90,13 +90,13 @@ void Assembler::check(const char* part, const std::optional<CardanBeamOptions>& 
 }
 
 FrameId Assembler::past_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name,
-                              const PartLabel& label, const Bearing& bearing) {
+                              const PartLabel& label, const JointSupport& bearing) {
     return bearing.is_rigid() ? carrier : jointed(carrier, kind, axis, name, label, bearing).frame;
 }
 
 JointedFrame Assembler::jointed(FrameId carrier, JointKind kind, Axis axis, const std::string& name,
-                                const PartLabel& label, const Bearing& bearing, const Vec3& offset) {
-    const bool driven = bearing.hold == Bearing::Hold::driven;
+                                const PartLabel& label, const JointSupport& bearing, const Vec3& offset) {
+    const bool driven = bearing.kind == JointSupport::Kind::driven;
     const JointedFrame joint = add_joint(tree, carrier, kind, axis, name, label, offset,
                                          driven ? CoordinateRole::driven : CoordinateRole::free);
     if (!driven) forces.add_spring(name, joint.body, bearing.stiffness, options_.joint_damping ? bearing.damping : 0.0);
@@ -251,7 +251,7 @@ FrameId Assembler::add_teeter(FrameId rotor_centre, const TeeterDescription& tee
     const FrameId axis = tree.add_frame(rotor_centre, Placement::rotation(rot_z(-teeter.delta3)), "teeter axis");
     const JointedFrame turned = jointed(axis, JointKind::revolute, Axis::y, "teeter", {"teeter"}, teeter.bearing);
     layout.teeter = turned.body;
-    if (teeter.bearing.hold != Bearing::Hold::driven) odd.push_back(turned.body);
+    if (teeter.bearing.kind != JointSupport::Kind::driven) odd.push_back(turned.body);
     parts.push_back({"teeter", rotor_centre, {}, {"", "teeter", ""}});
     return tree.add_frame(turned.frame, Placement::rotation(rot_z(teeter.delta3)), "hub");
 }

@@ -41,9 +41,9 @@ private:
     void check(const char* part, const std::optional<CardanBeamOptions>& beam) const;
     // The frame outboard of a joint; for a rigid one no joint is added.
     FrameId past_joint(FrameId carrier, JointKind kind, Axis axis, const std::string& name, const PartLabel& label,
-                       const Bearing& bearing);
+                       const JointSupport& bearing);
     JointedFrame jointed(FrameId carrier, JointKind kind, Axis axis, const std::string& name, const PartLabel& label,
-                         const Bearing& bearing, const Vec3& offset = Vec3::Zero());
+                         const JointSupport& bearing, const Vec3& offset = Vec3::Zero());
     void keep(const CardanBeam& beam) { warnings.insert(warnings.end(), beam.warnings.begin(), beam.warnings.end()); }
 
     void add_platform();

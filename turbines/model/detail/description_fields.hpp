@@ -20,15 +20,15 @@ inline const char* name_of(LineShape shape) {
     return shape == LineShape::spline ? "spline" : "polyline";
 }
 
-inline const char* name_of(Bearing::Hold hold) {
+inline const char* name_of(JointSupport::Kind hold) {
     switch (hold) {
-        case Bearing::Hold::spring:
+        case JointSupport::Kind::spring:
             return "spring";
-        case Bearing::Hold::free:
+        case JointSupport::Kind::free:
             return "free";
-        case Bearing::Hold::rigid:
+        case JointSupport::Kind::rigid:
             return "rigid";
-        case Bearing::Hold::driven:
+        case JointSupport::Kind::driven:
             return "driven";
     }
     return "";

@@ -118,16 +118,16 @@ public:
             }
         });
     }
-    void bearing(const char* key, const Bearing& b) {
+    void bearing(const char* key, const JointSupport& b) {
         const std::string damping = text("damping: ", digits(b.damping, key), "}");
-        if (b.hold == Bearing::Hold::spring)
+        if (b.kind == JointSupport::Kind::spring)
             entry(key, text("{stiffness: ", digits(b.stiffness, key), ", ", damping));
         else if (b.damping != 0)
-            entry(key, text("{hold: ", name_of(b.hold), ", ", damping));
+            entry(key, text("{hold: ", name_of(b.kind), ", ", damping));
         else
-            entry(key, name_of(b.hold));
+            entry(key, name_of(b.kind));
     }
-    void optional_bearing(const char* key, const Bearing& b) { bearing(key, b); }
+    void optional_bearing(const char* key, const JointSupport& b) { bearing(key, b); }
     void inertia(const char* key, const RigidInertia& i) {
         group(key, [&] {
             number("mass", i.mass);

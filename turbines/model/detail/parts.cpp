@@ -52,11 +52,11 @@ TurbineDescription tower_alone(const TurbineDescription& d) {
 }
 
 TurbineDescription completed(TurbineDescription d) {
-    const auto complete = [](Bearing& bearing) {
-        if (bearing.hold == Bearing::Hold::spring && std::isnan(bearing.stiffness)) bearing = rigid_joint;
+    const auto complete = [](JointSupport& bearing) {
+        if (bearing.kind == JointSupport::Kind::spring && std::isnan(bearing.stiffness)) bearing = rigid_joint;
     };
-    for (Bearing* bearing : {&d.yaw.rotation, &d.yaw.translation, &d.nacelle.tilt_bearing,
-                             &d.drive_train.high_speed_shaft, &d.drive_train.main_shaft, &d.blade.pitch})
+    for (JointSupport* bearing : {&d.yaw.rotation, &d.yaw.translation, &d.nacelle.tilt_bearing,
+                                  &d.drive_train.high_speed_shaft, &d.drive_train.main_shaft, &d.blade.pitch})
         complete(*bearing);
     if (d.hub.teeter) complete(d.hub.teeter->bearing);
     for (auto& [number, blade] : d.individual_blades)

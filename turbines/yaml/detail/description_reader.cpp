@@ -74,22 +74,22 @@ BeamTable DescriptionReader::table(YamlLevel level) {
     return t;
 }
 
-void DescriptionReader::bearing(const char* key, Bearing& b) {
-    using Hold = Bearing::Hold;
+void DescriptionReader::bearing(const char* key, JointSupport& b) {
+    using Hold = JointSupport::Kind;
     b = rigid_joint;
     const YamlNode node = at()[key];
     if (!node.is_map()) {
-        b.hold = choice(node, {Hold::free, Hold::rigid, Hold::driven});
+        b.kind = choice(node, {Hold::free, Hold::rigid, Hold::driven});
         return;
     }
     group(key, [&] {
         const auto hold = at().find("hold");
-        b.hold = hold ? choice(*hold, {Hold::free, Hold::spring}) : Hold::spring;
-        if (b.hold == Hold::spring) b.stiffness = at()["stiffness"].number(version_ == 1);
+        b.kind = hold ? choice(*hold, {Hold::free, Hold::spring}) : Hold::spring;
+        if (b.kind == Hold::spring) b.stiffness = at()["stiffness"].number(version_ == 1);
         number("damping", b.damping);
     });
     if (version_ == 1 && std::isinf(b.stiffness)) b = rigid_joint;
-    if (version_ == 1 && b.hold == Hold::spring && b.stiffness == 0) b.hold = Hold::free;
+    if (version_ == 1 && b.kind == Hold::spring && b.stiffness == 0) b.kind = Hold::free;
 }
 
 void DescriptionReader::inertia(const char* key, RigidInertia& i) {

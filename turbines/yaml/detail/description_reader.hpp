@@ -106,8 +106,8 @@ public:
             }
         });
     }
-    void bearing(const char* key, Bearing& b);
-    void optional_bearing(const char* key, Bearing& b) {
+    void bearing(const char* key, JointSupport& b);
+    void optional_bearing(const char* key, JointSupport& b) {
         if (at().find(key)) bearing(key, b);
     }
     void inertia(const char* key, RigidInertia& i);
