@@ -144,11 +144,11 @@ BENCHMARK(point_modes)->Unit(benchmark::kMicrosecond);
 
 void point_shares(benchmark::State& state) {
     Stages stages;
-    const solvers::EnergyShares energy_shares(stages.lin, stages.system.model, stages.rotor, stages.unknowns,
-                                              stages.coleman.rows());
+    const solvers::EnergyFractions energy_shares(stages.lin, stages.system.model, stages.rotor, stages.unknowns,
+                                                 stages.coleman.rows());
     solvers::Mode mode;
     Vector by_row;
-    std::vector<solvers::Share> shares;
+    std::vector<solvers::EnergyFraction> shares;
     const std::size_t count = stages.mode_solver.solve(stages.z);
     for ([[maybe_unused]] auto _ : state)
         for (std::size_t i = 0; i < count; ++i) {

@@ -23,7 +23,7 @@ solvers::Campbell modes_at_rest(const turbines::Turbine& turbine) {
 
 int main() try {
     const turbines::Turbine afloat = turbines::nrel5mw_on_oc3_hywind(CoordinateRole::free),
-                            held = turbines::nrel5mw_on_oc3_hywind(CoordinateRole::driven);
+                            held = turbines::nrel5mw_on_oc3_hywind(CoordinateRole::prescribed);
     std::cout << "afloat\n"
               << solvers::table(modes_at_rest(afloat)) << "\nheld\n"
               << solvers::table(modes_at_rest(held));

@@ -16,7 +16,7 @@ int main() try {
     constexpr double speed = 2.2, torque = 8e5, left = 0.5;  // rad/s, N m, of the voltage
     Tree tree;
     const JointedFrame shaft =
-        add_joint(tree, Tree::base(), JointKind::revolute, Axis::x, "shaft", {"generator"}, CoordinateRole::driven);
+        add_joint(tree, Tree::base(), JointKind::revolute, Axis::x, "shaft", {"generator"}, CoordinateRole::prescribed);
     const PermanentMagnetMachine machine{
         .pole_pairs = 40, .resistance = 0.006, .inductance_d = 1.5e-3, .inductance_q = 1.7e-3, .magnet_flux = 6.5};
     const Grid grid{.line_voltage = 690, .frequency = 50};

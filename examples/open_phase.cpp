@@ -24,7 +24,7 @@ int main() try {
     const Grid grid{.line_voltage = 220, .frequency = 60};
     Tree tree;
     const JointedFrame shaft =
-        add_joint(tree, Tree::base(), JointKind::revolute, Axis::x, "shaft", {"generator"}, CoordinateRole::driven);
+        add_joint(tree, Tree::base(), JointKind::revolute, Axis::x, "shaft", {"generator"}, CoordinateRole::prescribed);
     const Circuit machine = three_phase_machine({.shaft = shaft.body, .circuit = c, .grid = grid, .open_phase = 2});
     ForceSet forces;
     forces.add_element(machine.element());

@@ -16,7 +16,7 @@ int main() {
     Tree tree;
     const FrameId ground = Tree::base();
     const JointedFrame crank =
-        add_joint(tree, ground, JointKind::revolute, Axis::z, "crank", {"engine"}, CoordinateRole::driven);
+        add_joint(tree, ground, JointKind::revolute, Axis::z, "crank", {"engine"}, CoordinateRole::prescribed);
     const FrameId crank_pin = tree.add_frame(crank.frame, Placement::translation({r, 0, 0}), "crank pin");
     const JointedFrame rod = add_joint(tree, crank_pin, JointKind::revolute, Axis::z, "rod", {"engine"});
     const FrameId rod_end = tree.add_frame(rod.frame, Placement::translation({l, 0, 0}), "rod end");

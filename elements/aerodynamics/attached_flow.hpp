@@ -37,7 +37,8 @@ struct KnownFlow {
 /// @throws nothing; what is known and does not fit is found by UnsteadyAirfoil
 AttachedFlow attached_flow(const Polar& polar, const KnownFlow& known = {});
 
-/// Unsteady airfoils of every polar with its attached_flow() and the lags of a thin airfoil: AirLagOptions::airfoils.
+/// Unsteady airfoils of every polar with its attached_flow() and the lags of a thin airfoil:
+/// UnsteadyAeroOptions::airfoils.
 std::vector<UnsteadyAirfoil> unsteady_airfoils(const std::vector<Polar>& polars);
 
 }  // namespace cardan

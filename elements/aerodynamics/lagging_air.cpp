@@ -11,7 +11,7 @@ namespace {
 using LagSlope = Dual<LaggingSlopes::columns>;
 
 // Those that an airfoil does not have are zero.
-UnsteadyAirfoil::States airfoil_states(const SectionStates& s, const SectionLags& lags) {
+UnsteadyAirfoil::States airfoil_states(const SectionStates& s, const UnsteadySection& lags) {
     UnsteadyAirfoil::States x = UnsteadyAirfoil::States::Zero();
     x.tail(lags.airfoil_states()) = s.segment(lags.inflow_states(), lags.airfoil_states());
     return x;
@@ -50,7 +50,7 @@ LagSlope airfoil_value(double value, const Eigen::Matrix<double, 1, UnsteadyAirf
 class Differentiation {
 public:
     Differentiation(const Annulus& annulus, const LaggingAir& at, const SectionMotion& motion, const SectionStates& s,
-                    const RotorAirOptions& options, double density, const SectionLags& lags)
+                    const RotorAirOptions& options, double density, const UnsteadySection& lags)
         : annulus_(annulus),
           at_(at),
           motion_(motion),
@@ -155,7 +155,7 @@ private:
     const SectionStates& s_;
     const RotorAirOptions& options_;
     double density_;
-    const SectionLags& lags_;
+    const UnsteadySection& lags_;
     Inflow<LagSlope> inflow_;
     LagSlope rate_;
     LaggingSlopes out_;
@@ -164,7 +164,7 @@ private:
 }  // namespace
 
 LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
-                       const RotorAirOptions& options, double density, const SectionLags& lags) {
+                       const RotorAirOptions& options, double density, const UnsteadySection& lags) {
     const bool balanced = options.induction && lags.wake != WakeLag::frozen;
     const Induction balance = balanced ? solve_induction(annulus, motion.V_x, motion.V_y, options.momentum)
                                        : Induction{.phi = std::atan2(motion.V_x, motion.V_y)};
@@ -172,7 +172,7 @@ LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, cons
 }
 
 LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const SectionMotion& motion,
-                       const SectionStates& s, double density, const SectionLags& lags) {
+                       const SectionStates& s, double density, const UnsteadySection& lags) {
     const double V_x = motion.V_x, V_y = motion.V_y;
     const bool frozen = lags.wake == WakeLag::frozen, dynamic = lags.wake == WakeLag::dynamic;
     const Induction steady = with_wake(balance, V_x, V_y, unskewed(motion.wake));
@@ -209,8 +209,8 @@ LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const S
 }
 
 SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion, const RotorAirOptions& options,
-                            const SectionLags& lags) {
-    SectionLags still = lags;
+                            const UnsteadySection& lags) {
+    UnsteadySection still = lags;
     if (lags.wake == WakeLag::dynamic) still.wake = WakeLag::none;
     still.airfoil = nullptr;
     const LaggingAir at = lagging_air(annulus, motion, SectionStates::Zero(), options, 1, still);
@@ -227,7 +227,7 @@ SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion,
 
 LaggingSlopes lagging_slopes(const Annulus& annulus, const LaggingAir& at, const SectionMotion& motion,
                              const SectionStates& s, const RotorAirOptions& options, double density,
-                             const SectionLags& lags) {
+                             const UnsteadySection& lags) {
     return Differentiation(annulus, at, motion, s, options, density, lags).run();
 }
 

@@ -20,7 +20,7 @@ enum class WakeLag : std::uint8_t {
 };
 
 /// Unsteady parts of a section. Its states are those of the inflow, then those of the airfoil.
-struct SectionLags {
+struct UnsteadySection {
     const UnsteadyAirfoil* airfoil = nullptr;  ///< none: that of the annulus, steady
     WakeLag wake = WakeLag::none;
     InflowTimes times = {0, 0};                          ///< of a dynamic wake, s
@@ -32,8 +32,8 @@ struct SectionLags {
     int airfoil_states() const { return has_airfoil() ? airfoil->own_states() : 0; }
     int states() const { return inflow_states() + airfoil_states(); }
 };
-/// States of a section; only the first SectionLags::states() count.
-using SectionStates = Eigen::Matrix<double, SectionLags::max_states, 1>;
+/// States of a section; only the first UnsteadySection::states() count.
+using SectionStates = Eigen::Matrix<double, UnsteadySection::max_states, 1>;
 
 /// Motion of a section as its flow sees it.
 struct SectionMotion {
@@ -50,24 +50,24 @@ struct LaggingAir {
     bool solved = false;       ///< for lagging_slopes(): whether `root` is one
 };
 LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
-                       const RotorAirOptions& options, double density, const SectionLags& lags);
+                       const RotorAirOptions& options, double density, const UnsteadySection& lags);
 /// @param balance  the induction in equilibrium with the loads, solve_induction(), or none; of no meaning to a frozen
 /// wake
 LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const SectionMotion& motion,
-                       const SectionStates& s, double density, const SectionLags& lags);
+                       const SectionStates& s, double density, const UnsteadySection& lags);
 /// States that stay as they are.
 SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion, const RotorAirOptions& options,
-                            const SectionLags& lags);
+                            const UnsteadySection& lags);
 
 /// Derivatives of normal, driving, moment and the states' rates (rows).
 struct LaggingSlopes {
     enum Column : std::uint8_t { V_x, V_y, angle, radius, wake_angle, wake_lever, wake_share, rate, first_state };
-    static constexpr int columns = first_state + SectionLags::max_states, rows = 3 + SectionLags::max_states;
+    static constexpr int columns = first_state + UnsteadySection::max_states, rows = 3 + UnsteadySection::max_states;
     Eigen::Matrix<double, rows, columns> by = Eigen::Matrix<double, rows, columns>::Zero();
 };
 /// @param at  lagging_air() with the same arguments
 LaggingSlopes lagging_slopes(const Annulus& annulus, const LaggingAir& at, const SectionMotion& motion,
                              const SectionStates& s, const RotorAirOptions& options, double density,
-                             const SectionLags& lags);
+                             const UnsteadySection& lags);
 
 }  // namespace cardan

@@ -1,4 +1,5 @@
-/// @file Tower and nacelle in the wind behind or before a rotor: drag of a tower and a nacelle, the flow around a tower
+/// @file
+/// Tower and nacelle in the wind behind or before a rotor: drag of a tower and a nacelle, the flow around a tower
 /// and its wake.
 #pragma once
 
@@ -58,7 +59,7 @@ struct AeroNacelle {
 };
 
 /// Tower and nacelle of a machine in the wind.
-struct AeroSupport {
+struct TowerNacelleAero {
     AeroTower tower = {};
     AeroNacelle nacelle = {};
 };

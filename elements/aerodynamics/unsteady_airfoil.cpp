@@ -75,7 +75,7 @@ void check(const Polar& polar, const AttachedFlow& flow, const UnsteadyAirfoilCo
         require_positive(here, name, value);
 }
 
-// Share of the model in the coefficients.
+// EnergyFraction of the model in the coefficients.
 template <class S>
 S share_of(const S& attack) {
     using std::abs, std::cos;

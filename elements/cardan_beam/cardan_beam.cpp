@@ -121,7 +121,7 @@ private:
         const bool held =
             (options_.locked_y && (kind == ay1 || kind == ay2)) || (options_.locked_z && (kind == az1 || kind == az2));
         const JointedFrame added = add_joint(tree_, at_, joint, axis, name_ + " " + what, label_, Vec3(step_, 0, 0),
-                                             held ? CoordinateRole::driven : CoordinateRole::free);
+                                             held ? CoordinateRole::prescribed : CoordinateRole::free);
         at_ = added.frame;
         step_ = 0;
         bodies.push_back(added.body);

@@ -1,4 +1,5 @@
-/// @file Distribution of the mass of a beam element over its four rigid bodies.
+/// @file
+/// Distribution of the mass of a beam element over its four rigid bodies.
 #pragma once
 
 #include "elements/cardan_beam/joint_stiffness.hpp"

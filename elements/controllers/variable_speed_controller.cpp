@@ -31,7 +31,7 @@ Between<Row> between(const std::vector<Row>& rows, double value, double Row::*ov
 void VariableSpeedParameters::check() const {
     std::vector positive{std::pair{"period [s]", period},
                          std::pair{"corner frequency [rad/s]", corner_frequency},
-                         std::pair{"cut-in speed [rad/s]", cut_in},
+                         std::pair{"cut-in speed [rad/s]", region_1_5_speed},
                          std::pair{"optimal gain [N m s^2/rad^2]", optimal_gain},
                          std::pair{"slip", slip},
                          std::pair{"rated power [W]", rated_power},
@@ -50,9 +50,9 @@ void VariableSpeedParameters::check() const {
             throw InputError(name, "pitch of the gains [rad]", text(gains[i - 1].pitch, ", ", gains[i].pitch),
                              "rising");
     const double transition = torque_law().transition_speed();
-    if (!(cut_in < optimum_from && optimum_from < transition && transition < rated_speed))
+    if (!(region_1_5_speed < region_2_speed && region_2_speed < transition && transition < rated_speed))
         throw InputError(name, "speeds of the torque curve [rad/s]",
-                         text(cut_in, ", ", optimum_from, ", ", transition, ", ", rated_speed), "rising");
+                         text(region_1_5_speed, ", ", region_2_speed, ", ", transition, ", ", rated_speed), "rising");
     const auto check_range = [this](double min) {
         if (!(min < max_pitch))
             throw InputError(name, "range of the pitch [rad]", text(min, " ... ", max_pitch), "rising");
@@ -78,10 +78,12 @@ VariableSpeedController::VariableSpeedController(VariableSpeedParameters paramet
 double VariableSpeedController::torque(double speed, double pitch) const {
     const VariableSpeedParameters& p = own_;
     if (speed >= p.rated_speed || pitch >= p.constant_power_pitch)
-        return std::min(p.max_torque, p.rated_power / (p.constant_power ? std::max(speed, p.cut_in) : p.rated_speed));
-    if (speed <= p.cut_in) return 0;
-    if (speed < p.optimum_from)
-        return p.optimal_gain * p.optimum_from * p.optimum_from * (speed - p.cut_in) / (p.optimum_from - p.cut_in);
+        return std::min(p.max_torque,
+                        p.rated_power / (p.constant_power ? std::max(speed, p.region_1_5_speed) : p.rated_speed));
+    if (speed <= p.region_1_5_speed) return 0;
+    if (speed < p.region_2_speed)
+        return p.optimal_gain * p.region_2_speed * p.region_2_speed * (speed - p.region_1_5_speed) /
+               (p.region_2_speed - p.region_1_5_speed);
     return std::min(p.torque_law().at(speed).torque, p.max_torque);
 }
 

@@ -33,15 +33,15 @@ struct VariableSpeedParameters {
     double period = 0;            ///< s, between two samples
     double corner_frequency = 0;  ///< of the filter of the generator speed, rad/s
 
-    /// Below `cut_in` no torque, up to `optimum_from` linear, then optimal_gain speed^2, until that meets the line of
-    /// an induction machine with this slip at rated power, which ends at `rated_speed`.
-    double cut_in = 0, optimum_from = 0, rated_speed = 0;  ///< rad/s
-    double optimal_gain = 0;                               ///< N m / (rad/s)^2
-    double slip = 0;                                       ///< rated speed over the synchronous one, minus 1
-    double rated_power = 0;                                ///< mechanical, W, above rated speed
-    bool constant_power = true;                            ///< false: the torque is constant above rated speed
-    double max_torque = 0;                                 ///< N m
-    double max_torque_rate = 0;                            ///< N m/s
+    /// Below `region_1_5_speed` no torque, up to `region_2_speed` linear, then optimal_gain speed^2, until that meets
+    /// the line of an induction machine with this slip at rated power, which ends at `rated_speed`.
+    double region_1_5_speed = 0, region_2_speed = 0, rated_speed = 0;  ///< rad/s
+    double optimal_gain = 0;                                           ///< N m / (rad/s)^2
+    double slip = 0;             ///< rated speed over the synchronous one, minus 1
+    double rated_power = 0;      ///< mechanical, W, above rated speed
+    bool constant_power = true;  ///< false: the torque is constant above rated speed
+    double max_torque = 0;       ///< N m
+    double max_torque_rate = 0;  ///< N m/s
     /// Above this pitch angle torque or power are constant whatever the speed, rad.
     double constant_power_pitch = 0;
 
@@ -56,7 +56,7 @@ struct VariableSpeedParameters {
     std::vector<PitchAtSpeed> min_pitches = {};
     double max_pitch_rate = 0;  ///< rad/s
 
-    /// Torque law from optimum_from up to the rated speed.
+    /// Torque law from region_2_speed up to the rated speed.
     TorqueLaw torque_law() const { return {rated_speed, rated_power / rated_speed, optimal_gain, slip}; }
     /// Minimum pitch at a filtered speed of the generator, rad.
     double min_pitch_at(double speed) const;

@@ -35,8 +35,8 @@ public:
         : p_(p),
           width_(width),
           law_(p.torque_law()),
-          floor_(std::max(p.cut_in, p.rated_power / p.max_torque)),
-          bends_{p.cut_in, p.optimum_from, law_.transition_speed(), p.rated_speed},
+          floor_(std::max(p.region_1_5_speed, p.rated_power / p.max_torque)),
+          bends_{p.region_1_5_speed, p.region_2_speed, law_.transition_speed(), p.rated_speed},
           floor_bend_{floor_} {}
 
     void check() const {
@@ -63,13 +63,14 @@ private:
     }
     Point piece(double w) const {
         if (w >= p_.rated_speed) return power_piece(w);
-        if (w <= p_.cut_in) return {0, 0};
-        if (w >= p_.optimum_from) {
+        if (w <= p_.region_1_5_speed) return {0, 0};
+        if (w >= p_.region_2_speed) {
             const TorqueLaw::At at = law_.at(w);
             return {at.torque, at.by_speed};
         }
-        const double slope = p_.optimal_gain * p_.optimum_from * p_.optimum_from / (p_.optimum_from - p_.cut_in);
-        return {slope * (w - p_.cut_in), slope};
+        const double slope =
+            p_.optimal_gain * p_.region_2_speed * p_.region_2_speed / (p_.region_2_speed - p_.region_1_5_speed);
+        return {slope * (w - p_.region_1_5_speed), slope};
     }
 
     VariableSpeedParameters p_;

@@ -22,7 +22,7 @@ struct MovingBaseOptions {
     /// angle must stay away from +-90 degrees, where the first and third axis coincide if the three are orthogonal.
     std::array<BaseCoordinate, 3> rotations{BaseCoordinate::yaw, BaseCoordinate::pitch, BaseCoordinate::roll};
     /// Driven: the motion is prescribed, with its velocity and acceleration. Free: it follows from forces on the base.
-    CoordinateRole role = CoordinateRole::driven;
+    CoordinateRole role = CoordinateRole::prescribed;
     /// Roles of individual coordinates, surge ... yaw, where they differ from `role`.
     std::array<std::optional<CoordinateRole>, 6> roles = {};
 

@@ -54,7 +54,7 @@ FrameId add_bar(Tree& tree, FrameId at, const std::string& name, double length, 
 
 System four_bar() {
     Tree tree;
-    const FrameId A = add_bar(tree, Tree::base(), "crank", crank, CoordinateRole::driven);
+    const FrameId A = add_bar(tree, Tree::base(), "crank", crank, CoordinateRole::prescribed);
     const FrameId B = add_bar(tree, A, "coupler", coupler, CoordinateRole::free);
     const FrameId C = tree.add_frame(Tree::base(), Placement::translation({ground, 0, 0}), "C");
     LoopSet loops;

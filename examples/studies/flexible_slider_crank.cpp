@@ -29,7 +29,7 @@ System slider_crank(int elements) {
     Tree tree;
     ForceSet forces;
     const JointedFrame crank =
-        add_joint(tree, Tree::base(), JointKind::revolute, Axis::z, "crank", {"engine"}, CoordinateRole::driven);
+        add_joint(tree, Tree::base(), JointKind::revolute, Axis::z, "crank", {"engine"}, CoordinateRole::prescribed);
     tree.weld(crank.frame, slender_bar(0.36, Vec3::Zero(), {r, 0, 0}));
     const JointedFrame rod =
         add_joint(tree, crank.frame, JointKind::revolute, Axis::z, "rod", {"engine"}, Vec3(r, 0, 0));

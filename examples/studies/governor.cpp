@@ -76,7 +76,7 @@ void turn_freely(const std::string& picture) {
 }
 
 void turn_driven() {
-    const System system = governor(CoordinateRole::driven, true);
+    const System system = governor(CoordinateRole::prescribed, true);
     const Model& model = system.model;
     const int shaft = model.index("shaft");
     const solvers::SteadyState state =

@@ -7,7 +7,7 @@
 #include "examples/studies/study.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/equilibrium/buckling.hpp"
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "solvers/pictures/stack.hpp"
 
 using namespace cardan;
@@ -44,11 +44,11 @@ double prandtl() {
     return low;
 }
 
-solvers::LoadPath path(const System& system, std::vector<double> weights) {
-    solvers::LoadPathOptions options;
+solvers::EquilibriumPath path(const System& system, std::vector<double> weights) {
+    solvers::EquilibriumPathOptions options;
     options.factors = std::move(weights);
     options.stability_tolerance = 1e-7;
-    solvers::LoadPath out = solvers::load_path(system, options);
+    solvers::EquilibriumPath out = solvers::equilibrium_path(system, options);
     require_result(out);
     return out;
 }
@@ -56,7 +56,7 @@ solvers::LoadPath path(const System& system, std::vector<double> weights) {
 // Where the stiffness of the bent beam first has a negative pivot.
 double on_path(int elements, double EI_y) {
     const SingleBeam straight = beam(elements, EI_y, 0);
-    const solvers::LoadPath found = path(straight.system, {0, 1, 2, 3, 4, 5, 6});
+    const solvers::EquilibriumPath found = path(straight.system, {0, 1, 2, 3, 4, 5, 6});
     if (!found.stability_change) throw NumericalError("the beam does not buckle");
     return found.stability_change->factor();
 }
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
         for (const double sideways : {0.001, 0.01, 0.05}) {
             const SingleBeam bent = beam(elements, 10, sideways);
             for (solvers::StackPanel& panel : panels) panel.curves.push_back({text("pull sideways ", sideways, " P")});
-            for (const solvers::LoadPathPoint& point : path(bent.system, weights).points) {
+            for (const solvers::EquilibriumPathPoint& point : path(bent.system, weights).points) {
                 const Vec3 tip = bent.tip(point.at.q).p;
                 for (auto [panel, value] : {std::pair(0, tip.y()), {1, -tip.z()}}) {
                     entry(panels, panel).curves.back().x.push_back(point.factor);

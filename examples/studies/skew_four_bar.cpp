@@ -38,7 +38,7 @@ System four_bar(double skew) {
         return add_cardan_beam(tree, forces, hinge.frame, uniform_beam(length, square(side)), name, {name}, options)
             .tip();
     };
-    const FrameId B = bar("crank", Tree::base(), CoordinateRole::driven, arm, 0.016),
+    const FrameId B = bar("crank", Tree::base(), CoordinateRole::prescribed, arm, 0.016),
                   C = bar("coupler", B, CoordinateRole::free, coupler_length, 0.016),
                   D = tree.add_frame(Tree::base(), Placement::translation({coupler_length, 0, 0}), "D"),
                   end = bar("rocker", D, CoordinateRole::free, arm, 0.008);

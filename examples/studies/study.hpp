@@ -1,4 +1,5 @@
-/// @file Common parts of short studies with one picture.
+/// @file
+/// Common parts of short studies with one picture.
 #pragma once
 
 #include "programs/shared/program.hpp"

@@ -1,4 +1,5 @@
-/// @file Common parts of the programs about the two-bladed teetered machine: the machine and its periodic system.
+/// @file
+/// Common parts of the programs about the two-bladed teetered machine: the machine and its periodic system.
 #pragma once
 
 #include "mbs/base/units.hpp"

@@ -1,4 +1,5 @@
-/// @file Common parts of the studies of the 600 kW machine in time: its elements, and how a run starts.
+/// @file
+/// Common parts of the studies of the 600 kW machine in time: its elements, and how a run starts.
 #pragma once
 
 #include "mbs/base/outcome.hpp"

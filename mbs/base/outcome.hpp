@@ -1,4 +1,5 @@
-/// @file Outcome of a computation that may fail to converge: every such result carries one.
+/// @file
+/// Outcome of a computation that may fail to converge: every such result carries one.
 #pragma once
 
 #include "mbs/base/error.hpp"

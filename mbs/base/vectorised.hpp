@@ -1,4 +1,5 @@
-/// @file Use of the processor's vector instructions by the kernels without changing a flag of the build.
+/// @file
+/// Use of the processor's vector instructions by the kernels without changing a flag of the build.
 #pragma once
 
 /// A function that is compiled twice, for any processor and for those with AVX2 (GCC: and FMA, which clang 14 cannot

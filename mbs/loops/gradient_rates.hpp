@@ -1,4 +1,5 @@
-/// @file Rates of the loops' gradients along a motion.
+/// @file
+/// Rates of the loops' gradients along a motion.
 #pragma once
 
 #include "mbs/loops/loops.hpp"

@@ -42,7 +42,7 @@ std::vector<int> CoordinateTable::free_without(int index) const {
 
 std::vector<bool> CoordinateTable::driven() const {
     std::vector<bool> flags;
-    for (const CoordinateInfo& row : rows_) flags.push_back(row.role == CoordinateRole::driven);
+    for (const CoordinateInfo& row : rows_) flags.push_back(row.role == CoordinateRole::prescribed);
     return flags;
 }
 

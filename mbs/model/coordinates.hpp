@@ -14,7 +14,7 @@
 namespace cardan {
 
 /// Free coordinates are unknowns; driven ones have prescribed position, velocity and acceleration.
-enum class CoordinateRole : std::uint8_t { free, driven };
+enum class CoordinateRole : std::uint8_t { free, prescribed };
 
 struct CoordinateInfo {
     std::string name;                            ///< unique, e.g. "blade 1 element 2 flap bending inboard"

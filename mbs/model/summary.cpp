@@ -66,7 +66,7 @@ std::string summary(const Tree& tree) {
     for (const Tree::Body& body : tree.bodies()) {
         const CoordinateInfo& c = body.spec.coordinate;
         out << "  " << std::setw(3) << index++ << "  " << std::left << std::setw(40) << c.name << std::setw(4) << c.unit
-            << (c.role == CoordinateRole::driven ? " driven" : "") << std::right << "\n";
+            << (c.role == CoordinateRole::prescribed ? " driven" : "") << std::right << "\n";
     }
     return out.str();
 }

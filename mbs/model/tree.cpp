@@ -89,7 +89,7 @@ FreeBody Tree::add_free_body(const FreeBodySpec& spec) {
     FreeBody body{.name = spec.name, .slides = {}, .reference = {}, .hinges = {}, .frame = {}};
     body.slides = {add("x", JointKind::prismatic, x, free), add("y", JointKind::prismatic, y, free),
                    add("z", JointKind::prismatic, z, free)};
-    body.reference = add("reference", JointKind::revolute, x, CoordinateRole::driven);
+    body.reference = add("reference", JointKind::revolute, x, CoordinateRole::prescribed);
     body.hinges = {add("turn z", JointKind::revolute, z, free), add("turn y", JointKind::revolute, y, free),
                    add("turn x", JointKind::revolute, x, free, true)};
     body.frame = add_frame(at, Placement::rotation(x.transpose()), spec.name);

@@ -1,4 +1,5 @@
-/// @file Channels of the attitude and the rotation of free bodies.
+/// @file
+/// Channels of the attitude and the rotation of free bodies.
 #pragma once
 
 #include "mbs/system/channel.hpp"

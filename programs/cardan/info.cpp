@@ -115,7 +115,7 @@ void print_masses(const std::map<std::string, double>& parts, bool whole) {
 
 void print_size(const turbines::TurbineDescription& d) {
     const double height = d.tower.line.length + d.nacelle.shaft_height + d.nacelle.overhang * std::sin(d.nacelle.tilt) +
-                          (d.platform ? d.platform->tower_foot.z() : 0);
+                          (d.platform ? d.platform->tower_base.z() : 0);
     std::printf("blades        %d, %s\n", d.blades, d.nacelle.overhang < 0 ? "downwind" : "upwind");
     if (d.blades > 0 && d.hub.radius > 0 && d.blade.line.length > 0)
         std::printf("rotor         %g m, twice hub radius and blade along the cone\n",

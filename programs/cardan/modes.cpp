@@ -42,13 +42,13 @@ void declare(CommandLine& app, ModesArguments& a) {
 
 // The three largest parts of the elastic energy: "blade flap 1 81 %, tower fore-aft 1 12 %".
 std::string energy_in_words(const solvers::Campbell& diagram, const solvers::CampbellMode& mode) {
-    std::vector<const solvers::Share*> shares;
+    std::vector<const solvers::EnergyFraction*> shares;
     shares.reserve(mode.shares.size());
-    for (const solvers::Share& share : mode.shares) shares.push_back(&share);
-    std::ranges::sort(shares, std::ranges::greater(), [](const solvers::Share* s) { return s->total(); });
+    for (const solvers::EnergyFraction& share : mode.shares) shares.push_back(&share);
+    std::ranges::sort(shares, std::ranges::greater(), [](const solvers::EnergyFraction* s) { return s->total(); });
     if (shares.size() > 3) shares.resize(3);
     std::string words;
-    for (const solvers::Share* share : shares) {
+    for (const solvers::EnergyFraction* share : shares) {
         if (share->total() < 0.01) break;
         const solvers::Component& c = entry(diagram.components, share->component);
         words +=

@@ -1,4 +1,5 @@
-/// @file Arguments of `cardan plot`, and its pictures of time histories.
+/// @file
+/// Arguments of `cardan plot`, and its pictures of time histories.
 #pragma once
 
 #include "mbs/base/text.hpp"

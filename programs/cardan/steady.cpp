@@ -110,7 +110,7 @@ void write(const solvers::History& history, const std::string& path, const std::
 // At the wind with the largest thrust.
 void tell_mesh(const turbines::WindRun& run, const WindResults& results, const RevolutionOptions& revolution) {
     if (run.ready.turbine.layout().blades.empty() || !dofs_of(run.machine.description).blades) return;
-    const auto largest = std::ranges::max_element(results.points, {}, &turbines::WindPoint::thrust);
+    const auto largest = std::ranges::max_element(results.points, {}, &turbines::WindOperatingPoint::thrust);
     const double wind = largest->operation.wind;
     progress(text("wind speed ", wind, " m/s with twice as many elements"));
     turbines::FinerPoint finer = finer_point(run, largest->operation);
@@ -118,7 +118,7 @@ void tell_mesh(const turbines::WindRun& run, const WindResults& results, const R
         std::printf("with twice as many elements no steady state was found at %g m/s\n", wind);
         return;
     }
-    std::vector<turbines::WindPoint> points;
+    std::vector<turbines::WindOperatingPoint> points;
     points.push_back(std::move(finer.point));
     const WindResults other = wind_results(finer.operation, std::move(points), revolution.stations, "");
     const auto index = static_cast<std::size_t>(largest - results.points.begin());

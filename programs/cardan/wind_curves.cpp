@@ -110,7 +110,7 @@ WindCurves curves_of(const WindResults& results) {
     WindCurves out{
         .name = results.title, .title = results.title, .winds = {}, .quantities = {}, .channels = {}, .values = {}};
     out.channels = results.channels;
-    for (const turbines::WindPoint& point : results.points) {
+    for (const turbines::WindOperatingPoint& point : results.points) {
         out.winds.push_back(point.operation.wind);
         for (const auto& [name, value] :
              {std::pair("power", point.power), std::pair("thrust", point.thrust),

@@ -22,7 +22,7 @@ namespace cardan::program {
 namespace {
 
 using turbines::SectionMean;
-using turbines::WindPoint;
+using turbines::WindOperatingPoint;
 
 // A unit for people, and the SI unit that the value has.
 struct ShownUnit {
@@ -36,22 +36,23 @@ constexpr ShownUnit pure{"-", "1", 1}, rpm{"rpm", "rad s-1", units::to_rpm}, deg
 struct Quantity {
     const char *name, *long_name;
     ShownUnit unit;
-    double (*of)(const WindPoint&);
+    double (*of)(const WindOperatingPoint&);
 
-    double shown(const WindPoint& point) const { return unit.factor * of(point); }
+    double shown(const WindOperatingPoint& point) const { return unit.factor * of(point); }
 };
 namespace quantity {
 constexpr Quantity rotor_speed{"rotor_speed", "rotor speed", rpm,
-                               [](const WindPoint&p) { return p.operation.rotor_speed; }},
-    pitch{"pitch", "pitch", degrees, [](const WindPoint&p) { return p.operation.pitch; }},
-    power{"power", "power of the air on the rotor", kilowatt, [](const WindPoint&p) { return p.power; }},
-    thrust{"thrust", "thrust", kilonewton, [](const WindPoint&p) { return p.thrust; }},
-    torque{"torque", "torque", kilonewton_metre, [](const WindPoint&p) { return p.torque; }},
+                               [](const WindOperatingPoint&p) { return p.operation.rotor_speed; }},
+    pitch{"pitch", "pitch", degrees, [](const WindOperatingPoint&p) { return p.operation.pitch; }},
+    power{"power", "power of the air on the rotor", kilowatt, [](const WindOperatingPoint&p) { return p.power; }},
+    thrust{"thrust", "thrust", kilonewton, [](const WindOperatingPoint&p) { return p.thrust; }},
+    torque{"torque", "torque", kilonewton_metre, [](const WindOperatingPoint&p) { return p.torque; }},
     power_coefficient{"power_coefficient", "power coefficient", pure,
-                      [](const WindPoint&p) { return p.power_coefficient; }},
+                      [](const WindOperatingPoint&p) { return p.power_coefficient; }},
     thrust_coefficient{"thrust_coefficient", "thrust coefficient", pure,
-                       [](const WindPoint&p) { return p.thrust_coefficient; }},
-    tip_speed_ratio{"tip_speed_ratio", "tip-speed ratio", pure, [](const WindPoint&p) { return p.tip_speed_ratio; }};
+                       [](const WindOperatingPoint&p) { return p.thrust_coefficient; }},
+    tip_speed_ratio{"tip_speed_ratio", "tip-speed ratio", pure,
+                    [](const WindOperatingPoint&p) { return p.tip_speed_ratio; }};
 constexpr std::array all{rotor_speed,        pitch,          power, thrust, torque, power_coefficient,
                          thrust_coefficient, tip_speed_ratio};
 }  // namespace quantity
@@ -87,7 +88,7 @@ constexpr std::array statistics{Statistic{"mean", &MeanAndRange::mean}, Statisti
 std::vector<double> winds_of(const WindResults& results) {
     std::vector<double> winds;
     winds.reserve(results.points.size());
-    for (const WindPoint& point : results.points) winds.push_back(point.operation.wind);
+    for (const WindOperatingPoint& point : results.points) winds.push_back(point.operation.wind);
     return winds;
 }
 
@@ -102,10 +103,10 @@ void draw(const solvers::PanelStack& stack, const std::string& prefix) {
 
 }  // namespace
 
-WindResults wind_results(const turbines::WindOperation& machine, std::vector<WindPoint> points,
+WindResults wind_results(const turbines::WindOperation& machine, std::vector<WindOperatingPoint> points,
                          const StationOptions& stations, std::string title) {
     WindResults out{.title = std::move(title), .points = std::move(points), .channels = {}};
-    for (const WindPoint& point : out.points) {
+    for (const WindOperatingPoint& point : out.points) {
         const turbines::Turbine turbine = machine.machine(point.operation);
         const std::vector<ChannelGroup> groups = channels_of(turbine, stations);
         const solvers::History revolution = history_of(turbine.system(), groups, point.revolution, "");
@@ -126,7 +127,7 @@ WindResults wind_results(const turbines::WindOperation& machine, std::vector<Win
 void print(const WindResults& results) {
     std::printf("\n%8s %9s %9s %11s %11s %11s %8s %8s %8s\n", "m/s", "rpm", "pitch deg", "power kW", "thrust kN",
                 "torque kNm", "Cp", "Ct", "lambda");
-    for (const WindPoint& p : results.points)
+    for (const WindOperatingPoint& p : results.points)
         std::printf("%8.3f %9.4f %9.4f %11.3f %11.3f %11.3f %8.5f %8.5f %8.4f\n", p.operation.wind,
                     quantity::rotor_speed.shown(p), quantity::pitch.shown(p), quantity::power.shown(p),
                     quantity::thrust.shown(p), quantity::torque.shown(p), p.power_coefficient, p.thrust_coefficient,
@@ -142,7 +143,7 @@ void print(const WindResults& results) {
 }
 
 std::string beside(const WindResults& results, std::size_t point, const WindResults& finer) {
-    const WindPoint &own = results.points[point], &other = finer.points.front();
+    const WindOperatingPoint &own = results.points[point], &other = finer.points.front();
     std::string out;
     const auto add = [&](const char* what, double a, double b, const char* unit) {
         std::array<char, 120> line{};
@@ -178,7 +179,7 @@ void write_csv(const WindResults& results, const std::string& prefix) {
     out = "wind[m/s],position[m]";
     for (const SectionQuantity& q : section_quantities) out += text(",", q.name, "[", q.unit.name, "]");
     out += "\n";
-    for (const WindPoint& point : results.points)
+    for (const WindOperatingPoint& point : results.points)
         for (const SectionMean& section : point.sections) {
             out += digits(point.operation.wind);
             append(out, section.position);
@@ -208,12 +209,12 @@ void write_hdf5(const WindResults& results, const std::string& path, const std::
         {solvers::text_label("channel_name", names, "name"), solvers::text_label("channel_units", units, "units")});
     for (const Quantity& q : quantity::all) {
         std::vector<double> values;
-        for (const WindPoint& point : results.points) values.push_back(q.of(point));
+        for (const WindOperatingPoint& point : results.points) values.push_back(q.of(point));
         write_array(file, q.name, values, {wind}, {q.unit.si, q.long_name});
     }
     for (const SectionQuantity& q : section_quantities) {
         std::vector<double> values;
-        for (const WindPoint& point : results.points)
+        for (const WindOperatingPoint& point : results.points)
             for (const SectionMean& section : point.sections) values.push_back(section.*q.of);
         write_array(file, text("sections/", q.name), values, {wind, position}, {q.unit.si, q.long_name});
     }
@@ -233,7 +234,7 @@ void draw_points(const WindResults& results, const std::string& prefix) {
 }
 
 void draw_sections(const WindResults& results, const std::string& prefix) {
-    const std::vector<WindPoint>& points = results.points;
+    const std::vector<WindOperatingPoint>& points = results.points;
     solvers::PanelStack stack;
     stack.title = results.title;
     stack.x_label = "distance from the hub's centre in m";
@@ -244,7 +245,7 @@ void draw_sections(const WindResults& results, const std::string& prefix) {
     for (const SectionQuantity& q : section_quantities) {
         solvers::StackPanel& one = stack.panels.emplace_back(solvers::StackPanel{q.label, {}});
         for (std::size_t k = 0; k < count; ++k) {
-            const WindPoint& point = points[count == 1 ? 0 : k * (points.size() - 1) / (count - 1)];
+            const WindOperatingPoint& point = points[count == 1 ? 0 : k * (points.size() - 1) / (count - 1)];
             solvers::StackCurve curve{text(point.operation.wind, " m/s"), {}, {}};
             for (const SectionMean& section : point.sections) {
                 curve.x.push_back(section.position);

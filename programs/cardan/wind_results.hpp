@@ -1,4 +1,5 @@
-/// @file Output of `cardan steady --wind`: text, files and pictures.
+/// @file
+/// Output of `cardan steady --wind`: text, files and pictures.
 #pragma once
 
 #include "mbs/system/channel.hpp"
@@ -12,11 +13,11 @@ namespace cardan::program {
 
 struct WindResults {
     std::string title;
-    std::vector<turbines::WindPoint> points;             ///< that converged, at least one
+    std::vector<turbines::WindOperatingPoint> points;    ///< that converged, at least one
     std::vector<Channel> channels;                       ///< the main ones
     std::vector<std::vector<MeanAndRange>> values = {};  ///< of the channels over a revolution, by point
 };
-WindResults wind_results(const turbines::WindOperation& machine, std::vector<turbines::WindPoint> points,
+WindResults wind_results(const turbines::WindOperation& machine, std::vector<turbines::WindOperatingPoint> points,
                          const StationOptions& stations, std::string title);
 
 void print(const WindResults& results);

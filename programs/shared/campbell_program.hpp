@@ -1,4 +1,5 @@
-/// @file Common parts of the programs that compute Campbell diagrams.
+/// @file
+/// Common parts of the programs that compute Campbell diagrams.
 #pragma once
 
 #include "mbs/base/units.hpp"

@@ -1,4 +1,5 @@
-/// @file Channels of a machine beside the usual ones, and those that tables and pictures show without being asked.
+/// @file
+/// Channels of a machine beside the usual ones, and those that tables and pictures show without being asked.
 #pragma once
 
 #include "programs/shared/command_line.hpp"

@@ -1,4 +1,5 @@
-/// @file State of the file of a time history.
+/// @file
+/// State of the file of a time history.
 #pragma once
 
 #include "solvers/hdf5/history.hpp"

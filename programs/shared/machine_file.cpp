@@ -48,7 +48,7 @@ void tell_dofs(const turbines::Machine& model, MachineOptions& a) {
     const turbines::FileDofs f = dofs_of(model.description);
     a.generator = f.generator ? "free" : "locked";
     const turbines::JointSupport& yaw = model.description.yaw.rotation;
-    a.yaw = yaw.is_rigid() ? "locked" : yaw.kind == turbines::JointSupport::Kind::driven ? "driven" : "free";
+    a.yaw = yaw.is_rigid() ? "locked" : yaw.kind == turbines::JointSupport::Kind::prescribed ? "driven" : "free";
     a.blades = f.blades ? "bend" : "rigid";
     a.tower =
         f.tower_fore_aft ? (f.tower_side_side ? "bends" : "fore-aft") : (f.tower_side_side ? "side-side" : "rigid");
@@ -109,7 +109,7 @@ std::string dofs_in_words(const turbines::Machine& model) {
     std::string locked = f.generator ? "" : ", generator locked";
     const turbines::JointSupport& yaw = model.description.yaw.rotation;
     if (yaw.is_rigid()) locked += ", yaw bearing locked";
-    if (yaw.kind == turbines::JointSupport::Kind::driven) locked += ", yaw prescribed";
+    if (yaw.kind == turbines::JointSupport::Kind::prescribed) locked += ", yaw prescribed";
     if (model.description.drive_train.main_shaft.is_rigid()) locked += ", main shaft rigid";
     if (!f.tower_fore_aft) locked += ", tower rigid fore-aft";
     if (!f.tower_side_side) locked += ", tower rigid side-side";

@@ -1,4 +1,5 @@
-/// @file Names on the command line of fields of the library's options: its errors and remarks name fields.
+/// @file
+/// Names on the command line of fields of the library's options: its errors and remarks name fields.
 #pragma once
 
 #include <array>

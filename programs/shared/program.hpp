@@ -1,4 +1,5 @@
-/// @file Common parts of the programs: signals, errors and exit codes, an early check of the output files.
+/// @file
+/// Common parts of the programs: signals, errors and exit codes, an early check of the output files.
 #pragma once
 
 #include "mbs/base/error.hpp"

@@ -1,4 +1,5 @@
-/// @file Progress of a program, for people: on a terminal a line that changes, in files and pipes a line now and then.
+/// @file
+/// Progress of a program, for people: on a terminal a line that changes, in files and pipes a line now and then.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,5 @@
-/// @file Remarks of the library on the terminal.
+/// @file
+/// Remarks of the library on the terminal.
 #pragma once
 
 #include "programs/shared/option_names.hpp"

@@ -1,4 +1,5 @@
-/// @file Common parts of the programs that simulate in time: rows on their way to a file, a first look at loads,
+/// @file
+/// Common parts of the programs that simulate in time: rows on their way to a file, a first look at loads,
 /// checks, pictures.
 #pragma once
 

@@ -261,7 +261,7 @@ void PointSolver::set_count(std::vector<CampbellMode>& modes, std::size_t count)
         blank.mode.shape.resize(n);
         blank.row_shares.resize(n);
         blank.shares.resize(components);
-        for (Share& share : blank.shares) share.higher.reserve(higher);
+        for (EnergyFraction& share : blank.shares) share.higher.reserve(higher);
     }
     for (; modes.size() < count; spare_.pop_back()) modes.push_back(std::move(spare_.back()));
     for (; modes.size() > count; modes.pop_back()) spare_.push_back(std::move(modes.back()));

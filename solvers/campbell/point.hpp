@@ -62,7 +62,7 @@ public:
     /// The (transformed) system of the last point, averaged over the azimuth.
     const SecondOrderSystem& system() const { return current_; }
     /// Made at the first point; null before.
-    const EnergyShares* energy_shares() const { return energy_shares_ ? &*energy_shares_ : nullptr; }
+    const EnergyFractions* energy_shares() const { return energy_shares_ ? &*energy_shares_ : nullptr; }
     /// Blade coordinates at azimuth 0 from the rows of a mode's shape.
     Matrix rotating_coordinates() const;
     /// With loops, how all coordinates of the model move with the unknowns in blade coordinates; empty without.
@@ -121,7 +121,7 @@ private:
     std::vector<int> moving_;  ///< with loops: these, and the coordinates that follow them; empty without
     std::optional<ColemanTransform> coleman_;
     std::vector<MultiBladeRow> plain_rows_;
-    std::optional<EnergyShares> energy_shares_;
+    std::optional<EnergyFractions> energy_shares_;
     std::string warning_;
 
     SteadySolver steady_solver_;

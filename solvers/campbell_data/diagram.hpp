@@ -23,8 +23,8 @@ struct CampbellMode {
     /// For Floquet modes, the principal exponent and the shape of the principal harmonic, scaled to unit energy by
     /// itself; for a rigid motion, to 1 J of kinetic energy at unit rate.
     Mode mode;
-    std::vector<Share> shares;  ///< of the elastic energy, by component (sum over the harmonics)
-    Vector row_shares;          ///< of the elastic energy, by row (see Campbell::rows)
+    std::vector<EnergyFraction> shares;  ///< of the elastic energy, by component (sum over the harmonics)
+    Vector row_shares;                   ///< of the elastic energy, by row (see Campbell::rows)
     /// Each blade's part of the elastic energy of all blades, averaged over the revolution; empty unless the blades
     /// differ or are not evenly spaced, and the method is Floquet's or nothing turns.
     Vector blade_shares = {};

@@ -17,7 +17,7 @@ double WhirlShare::of(RotorPattern pattern) const {
     }
 }
 
-double Share::of(RotorPattern pattern, int harmonic) const {
+double EnergyFraction::of(RotorPattern pattern, int harmonic) const {
     if (pattern == RotorPattern::none || pattern == RotorPattern::collective || pattern == RotorPattern::symmetric)
         return collective;
     if (pattern == RotorPattern::single) return 0;  // no combination of the blades
@@ -27,7 +27,7 @@ double Share::of(RotorPattern pattern, int harmonic) const {
     return at < higher.size() ? higher[at].of(pattern) : 0;
 }
 
-double Share::total() const {
+double EnergyFraction::total() const {
     double sum = collective + cosine + sine + differential;
     for (const WhirlShare& pair : higher) sum += pair.cosine + pair.sine;
     return sum;

@@ -47,7 +47,7 @@ struct WhirlShare {
 };
 
 /// The elastic energy of a mode in one component.
-struct Share {
+struct EnergyFraction {
     int component = -1;
     /// Fractions of the total elastic energy; everything is in `collective` if there is no pattern. Of blades without
     /// multi-blade coordinates that of the mean motion is in `collective`, the rest in `differential`.

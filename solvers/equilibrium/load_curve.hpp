@@ -2,7 +2,7 @@
 /// Equilibria along a curve on which the load may turn: through limit points, where a structure snaps through.
 #pragma once
 
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 
 #include <string>
 #include <vector>
@@ -23,7 +23,7 @@ struct LoadCurveOptions {
 struct LoadCurvePoint {
     double factor = 0;
     DynamicState at;
-    int negative_pivots = 0;  ///< as LoadPathPoint::negative_pivots
+    int negative_pivots = 0;  ///< as EquilibriumPathPoint::negative_pivots
     double slope = 0;         ///< d factor / d arc length; it changes its sign at limit points
 };
 

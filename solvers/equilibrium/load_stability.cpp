@@ -1,7 +1,7 @@
 #include "solvers/equilibrium/load_stability.hpp"
 
 #include "mbs/base/error.hpp"
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "solvers/linear/loop_reduction.hpp"
 #include "solvers/linear/modes.hpp"
 

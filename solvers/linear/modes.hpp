@@ -126,8 +126,8 @@ private:
 /// Energy product of two modes; complex MAC = |xy|^2 / (xx yy).
 Complex energy_product(const SecondOrderSystem& system, const Mode& x, const Mode& y);
 
-/// Share of every row in the elastic energy of a mode, Re conj(x_i) (K_e x)_i over the total: sums to one. Entries of
-/// coupled rows (the six coordinates of a beam element) may be negative.
+/// EnergyFraction of every row in the elastic energy of a mode, Re conj(x_i) (K_e x)_i over the total: sums to one.
+/// Entries of coupled rows (the six coordinates of a beam element) may be negative.
 Vector energy_by_row(const SecondOrderSystem& system, const Mode& mode);
 
 }  // namespace cardan::solvers

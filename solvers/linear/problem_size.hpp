@@ -1,4 +1,5 @@
-/// @file Maximum size of a machine for analyses with full matrices.
+/// @file
+/// Maximum size of a machine for analyses with full matrices.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// EnergyShares of blades that differ.
+// EnergyFractions of blades that differ.
 #include "mbs/base/entry.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 #include "solvers/mode_names/detail/blade_likeness.hpp"
@@ -12,8 +12,8 @@
 
 namespace cardan::solvers {
 
-void EnergyShares::add_blades(const Linearisation& lin, const Model& model, const RotorMap& rotor,
-                              const BladePart& part) {
+void EnergyFractions::add_blades(const Linearisation& lin, const Model& model, const RotorMap& rotor,
+                                 const BladePart& part) {
     BladeBlock block{};
     block.first_component = static_cast<int>(components_.size());
     Workspace workspace(model);
@@ -46,8 +46,8 @@ void EnergyShares::add_blades(const Linearisation& lin, const Model& model, cons
 // Component modes of one blade, under the names that others may have already. Where as many modes have other names (one
 // that is as much edge as torsion in the first blade and a little more of the one in the next, because it is bent
 // otherwise), they follow each other in frequency as those of the first do.
-void EnergyShares::add_modes(const BladePart& part, const Linearisation& lin, const std::vector<int>& own,
-                             const std::vector<std::string>& families, BladeBlock& block) {
+void EnergyFractions::add_modes(const BladePart& part, const Linearisation& lin, const std::vector<int>& own,
+                                const std::vector<std::string>& families, BladeBlock& block) {
     Matrix& weights = block.weights.emplace_back(Matrix::Zero(std::ssize(own), 0));
     if (own.empty()) return;
     const Matrix K = lin.elastic(own, own);
@@ -74,7 +74,7 @@ void EnergyShares::add_modes(const BladePart& part, const Linearisation& lin, co
 }
 
 // Its column in the block.
-int EnergyShares::component_of(const BladeBlock& block, const Component& named) {
+int EnergyFractions::component_of(const BladeBlock& block, const Component& named) {
     const auto first = components_.begin() + block.first_component;
     const auto found = std::find_if(first, components_.end(), [&](const Component& c) {
         return c.family == named.family && c.ordinal == named.ordinal;
@@ -85,8 +85,8 @@ int EnergyShares::component_of(const BladeBlock& block, const Component& named) 
 }
 
 // Energy amplitude of one blade, sum_j T_kj (w_k . z_j), at the azimuth of T; without slots w_k . x_k.
-Complex EnergyShares::blade_amplitude(const BladeBlock& block, Eigen::Index component, Eigen::Index blade,
-                                      const Matrix& T, const ComplexVector& shape) {
+Complex EnergyFractions::blade_amplitude(const BladeBlock& block, Eigen::Index component, Eigen::Index blade,
+                                         const Matrix& T, const ComplexVector& shape) {
     const Matrix& weights = entry(block.weights, blade);
     const auto worth = [&](const std::vector<int>& rows) {
         Complex sum = 0;
@@ -100,8 +100,8 @@ Complex EnergyShares::blade_amplitude(const BladeBlock& block, Eigen::Index comp
 }
 
 // Energy amplitudes of the patterns, sum_k T_kl a_k.
-EnergyShares::Patterns EnergyShares::patterns(const BladeBlock& block, Eigen::Index component, const Matrix& T,
-                                              const ComplexVector& shape) {
+EnergyFractions::Patterns EnergyFractions::patterns(const BladeBlock& block, Eigen::Index component, const Matrix& T,
+                                                    const ComplexVector& shape) {
     Patterns out{};
     for (Eigen::Index k = 0; k < T.rows(); ++k) {
         const Complex own = blade_amplitude(block, component, k, T, shape);
@@ -110,8 +110,9 @@ EnergyShares::Patterns EnergyShares::patterns(const BladeBlock& block, Eigen::In
     return out;
 }
 
-Share EnergyShares::pattern_share(const BladeBlock& block, const Patterns& amplitude, std::vector<WhirlShare> higher) {
-    Share share;
+EnergyFraction EnergyFractions::pattern_share(const BladeBlock& block, const Patterns& amplitude,
+                                              std::vector<WhirlShare> higher) {
+    EnergyFraction share;
     share.higher = std::move(higher);
     share.higher.clear();
     for (std::size_t j = 0; j < block.slots.size(); ++j) {
@@ -124,7 +125,8 @@ Share EnergyShares::pattern_share(const BladeBlock& block, const Patterns& ampli
     return share;
 }
 
-Share EnergyShares::mean_share(const BladeBlock& block, Eigen::Index component, const ComplexVector& shape) {
+EnergyFraction EnergyFractions::mean_share(const BladeBlock& block, Eigen::Index component,
+                                           const ComplexVector& shape) {
     const auto blades = std::ssize(block.weights);
     Complex sum = 0;
     double all = 0;
@@ -133,27 +135,28 @@ Share EnergyShares::mean_share(const BladeBlock& block, Eigen::Index component, 
         sum += own;
         all += std::norm(own);
     }
-    Share share;
+    EnergyFraction share;
     share.collective = std::norm(sum) / static_cast<double>(blades);
     share.differential = std::max(0.0, all - share.collective);
     return share;
 }
 
 // At azimuth 0. `higher` lends its memory.
-Share EnergyShares::blade_share(const BladeBlock& block, Eigen::Index component, const Mode& mode,
-                                std::vector<WhirlShare> higher) {
-    Share share = block.slots.empty()
-                      ? mean_share(block, component, mode.shape)
-                      : pattern_share(block, patterns(block, component, block.at_zero, mode.shape), std::move(higher));
+EnergyFraction EnergyFractions::blade_share(const BladeBlock& block, Eigen::Index component, const Mode& mode,
+                                            std::vector<WhirlShare> higher) {
+    EnergyFraction share =
+        block.slots.empty()
+            ? mean_share(block, component, mode.shape)
+            : pattern_share(block, patterns(block, component, block.at_zero, mode.shape), std::move(higher));
     share.component = static_cast<int>(block.first_component + component);
     return share;
 }
 
 // Where blades differ, amplitudes of patterns have harmonics of the azimuth beside those of the rows, since T occurs in
 // them twice; the energy is that of all their harmonics.
-Share EnergyShares::blade_share(const BladeBlock& block, Eigen::Index component, std::span<const Mode> harmonics,
-                                double rotor_speed) {
-    Share sum;
+EnergyFraction EnergyFractions::blade_share(const BladeBlock& block, Eigen::Index component,
+                                            std::span<const Mode> harmonics, double rotor_speed) {
+    EnergyFraction sum;
     sum.component = static_cast<int>(block.first_component + component);
     if (block.slots.empty()) {
         for (const Mode& one : harmonics) add(sum, mean_share(block, component, one.shape), false);

@@ -29,7 +29,7 @@ bool heavily_damped(const CampbellMode& mode) {
 
 class BranchNames {
 public:
-    BranchNames(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
+    BranchNames(const std::vector<CampbellPoint>& points, const EnergyFractions& energy_shares,
                 const std::vector<std::string>& rows, bool whirl, NeighbourNames* neighbour)
         : points_(points),
           energy_shares_(energy_shares),
@@ -90,7 +90,7 @@ private:
     void name_motions(std::vector<Branch>& branches) const;
 
     const std::vector<CampbellPoint>& points_;
-    const EnergyShares& energy_shares_;
+    const EnergyFractions& energy_shares_;
     const std::vector<std::string>& rows_;
     NeighbourNames* neighbour_;                       // may be null
     bool whirl_;                                      // at some speed
@@ -357,7 +357,7 @@ void BranchNames::name_motions(std::vector<Branch>& branches) const {
 
 }  // namespace
 
-std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
+std::vector<Branch> Tracker::branches(const std::vector<CampbellPoint>& points, const EnergyFractions& energy_shares,
                                       const std::vector<std::string>& rows, const std::vector<NamedState>& states,
                                       bool whirl, BranchesOf of, NeighbourNames* neighbour) const {
     std::vector<Branch> tracked;

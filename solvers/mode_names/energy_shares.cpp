@@ -53,8 +53,8 @@ bool has_plain_blade_rows(const RotorMap& rotor, const std::vector<MultiBladeRow
 
 }  // namespace
 
-EnergyShares::EnergyShares(const Linearisation& lin, const Model& model, const RotorMap& rotor,
-                           const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows)
+EnergyFractions::EnergyFractions(const Linearisation& lin, const Model& model, const RotorMap& rotor,
+                                 const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows)
     : two_blades_(rotor.blades.size() == 2),
       blades_differ_(differing_blades(lin, model, rotor)),
       plain_(has_plain_blade_rows(rotor, rows)) {
@@ -110,8 +110,8 @@ EnergyShares::EnergyShares(const Linearisation& lin, const Model& model, const R
     }
 }
 
-void EnergyShares::add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
-                            const std::vector<int>& own, Block block) {
+void EnergyFractions::add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
+                               const std::vector<int>& own, Block block) {
     const Matrix K = lin.elastic(own, own), M = lin.mass(own, own);
     const std::vector<std::string> families = coordinate_families(model, part, own);
     const ComponentModes modes = component_modes(K, M, part.part);
@@ -163,7 +163,7 @@ private:
 }  // namespace
 
 // The pair of one harmonic, by the energy amplitudes of its cosine and its sine.
-void EnergyShares::add_pair(int harmonic, Complex c, Complex s, Share& share) {
+void EnergyFractions::add_pair(int harmonic, Complex c, Complex s, EnergyFraction& share) {
     const double forward = std::norm(c + Complex(0, 1) * s), backward = std::norm(c - Complex(0, 1) * s);
     const double whirl = forward + backward > 0 ? (forward - backward) / (forward + backward) : 0.0;
     if (harmonic == 1)
@@ -173,14 +173,14 @@ void EnergyShares::add_pair(int harmonic, Complex c, Complex s, Share& share) {
 }
 
 // Energies of all components of a block, not yet divided by their sum. Shares keep the memory of their pairs.
-void EnergyShares::block_shares(const Block& block, const Mode& mode, std::vector<Share>& out) {
+void EnergyFractions::block_shares(const Block& block, const Mode& mode, std::vector<EnergyFraction>& out) {
     const Eigen::Index count = block.weights.cols();
-    const auto share = [&](Eigen::Index i) -> Share& { return entry(out, block.first_component + i); };
+    const auto share = [&](Eigen::Index i) -> EnergyFraction& { return entry(out, block.first_component + i); };
     Gathered x, y;
     x.set(block.collective, mode.shape);
     y.set(block.differential, mode.shape);
     for (Eigen::Index i = 0; i < count; ++i) {
-        Share& own = share(i);
+        EnergyFraction& own = share(i);
         own.component = static_cast<int>(block.first_component + i);
         own.collective = std::norm(x.times(block.weights.col(i)));
         own.differential = std::norm(y.times(block.weights.col(i)));
@@ -195,7 +195,7 @@ void EnergyShares::block_shares(const Block& block, const Mode& mode, std::vecto
     }
 }
 
-void EnergyShares::shares(const Mode& mode, std::vector<Share>& out) const {
+void EnergyFractions::shares(const Mode& mode, std::vector<EnergyFraction>& out) const {
     out.resize(components_.size());
     double total = 0;
     for (const Block& block : blocks_) {
@@ -204,31 +204,31 @@ void EnergyShares::shares(const Mode& mode, std::vector<Share>& out) const {
     }
     for (const BladeBlock& block : blade_blocks_)
         for (Eigen::Index i = 0; i < block.weights[0].cols(); ++i) {
-            Share& own = entry(out, block.first_component + i);
+            EnergyFraction& own = entry(out, block.first_component + i);
             own = blade_share(block, i, mode, std::move(own.higher));
             total += own.total();
         }
     divide_by(total, out);
 }
 
-void EnergyShares::divide_by(double total, std::vector<Share>& shares) {
+void EnergyFractions::divide_by(double total, std::vector<EnergyFraction>& shares) {
     const double scale = total > 0 ? 1 / total : 0.0;
-    for (Share& own : shares) {
+    for (EnergyFraction& own : shares) {
         for (double* part : {&own.collective, &own.cosine, &own.sine, &own.differential}) *part *= scale;
         for (WhirlShare& pair : own.higher) pair.cosine *= scale, pair.sine *= scale;
     }
 }
 
-std::vector<Share> EnergyShares::shares(const Mode& mode) const {
-    std::vector<Share> all;
+std::vector<EnergyFraction> EnergyFractions::shares(const Mode& mode) const {
+    std::vector<EnergyFraction> all;
     shares(mode, all);
     return all;
 }
 
-std::vector<Share> EnergyShares::shares(std::span<const Mode> harmonics, double rotor_speed) const {
-    std::vector<Share> all(components_.size());
+std::vector<EnergyFraction> EnergyFractions::shares(std::span<const Mode> harmonics, double rotor_speed) const {
+    std::vector<EnergyFraction> all(components_.size());
     double total = 0;
-    std::vector<Share> one(components_.size());
+    std::vector<EnergyFraction> one(components_.size());
     for (const Block& block : blocks_) {
         const int first = block.first_component, end = first + static_cast<int>(block.weights.cols());
         for (const Mode& mode : harmonics) {
@@ -242,7 +242,7 @@ std::vector<Share> EnergyShares::shares(std::span<const Mode> harmonics, double 
     }
     for (const BladeBlock& block : blade_blocks_)
         for (Eigen::Index i = 0; i < block.weights[0].cols(); ++i) {
-            Share& own = entry(all, block.first_component + i);
+            EnergyFraction& own = entry(all, block.first_component + i);
             own = blade_share(block, i, harmonics, rotor_speed);
             total += own.total();
         }
@@ -250,7 +250,7 @@ std::vector<Share> EnergyShares::shares(std::span<const Mode> harmonics, double 
     return all;
 }
 
-std::string EnergyShares::name(int component, RotorPattern pattern, int harmonic) const {
+std::string EnergyFractions::name(int component, RotorPattern pattern, int harmonic) const {
     const Component& c = entry(components_, component);
     const bool only_one = std::count_if(components_.begin(), components_.end(),
                                         [&](const Component& other) { return other.family == c.family; }) == 1;

@@ -16,26 +16,26 @@ namespace cardan::solvers {
 /// component modes of a part are orthogonal in it: the shares add up to one exactly. Blades that differ have component
 /// modes of their own, each with its stiffness and mass; those of one name are one component, and patterns are those of
 /// their energy amplitudes.
-class EnergyShares {
+class EnergyFractions {
 public:
     /// @param lin   linearisation whose elastic stiffness and mass define the component modes (e.g. at standstill)
     /// @param rows  what the rows of the system are (ColemanTransform::rows); without kinds the blades have no
     ///              multi-blade coordinates
     /// Coordinates of a part that the map does not name make a part of their own, called after it; those without a part
     /// are one together, of the family "mode".
-    EnergyShares(const Linearisation& lin, const Model& model, const RotorMap& rotor,
-                 const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
+    EnergyFractions(const Linearisation& lin, const Model& model, const RotorMap& rotor,
+                    const std::vector<int>& coordinates, const std::vector<MultiBladeRow>& rows);
 
     const std::vector<Component>& components() const { return components_; }
     /// @param out  overwritten: one entry per component, in the order of components(); nothing is allocated if it
     ///             already held as many from this object. Blades that differ: at azimuth 0
-    void shares(const Mode& mode, std::vector<Share>& out) const;
-    std::vector<Share> shares(const Mode& mode) const;
+    void shares(const Mode& mode, std::vector<EnergyFraction>& out) const;
+    std::vector<EnergyFraction> shares(const Mode& mode) const;
     /// Shares of a motion with several harmonics, each with its own shape and eigenvalue (the frequency may have either
     /// sign): their energies are added up. Blades that differ: over the revolution.
     /// @param harmonics  one after another, at eigenvalues that differ by i rotor_speed
     /// @param rotor_speed  rad/s; used where blades differ
-    std::vector<Share> shares(std::span<const Mode> harmonics, double rotor_speed = 0) const;
+    std::vector<EnergyFraction> shares(std::span<const Mode> harmonics, double rotor_speed = 0) const;
     /// Names are "1st tower fore-aft", "2nd blade flap (backward)"; families with one component have no ordinal.
     /// @param harmonic  for RotorPattern::single the place of the blade in RotorMap::blades, from 1
     std::string name(int component, RotorPattern pattern, int harmonic = 1) const;
@@ -55,8 +55,8 @@ private:
         Matrix weights;                              // K V: energy amplitude of each component mode by column
         int first_component;
     };
-    static void add_pair(int harmonic, Complex c, Complex s, Share& share);
-    static void block_shares(const Block& block, const Mode& mode, std::vector<Share>& out);
+    static void add_pair(int harmonic, Complex c, Complex s, EnergyFraction& share);
+    static void block_shares(const Block& block, const Mode& mode, std::vector<EnergyFraction>& out);
     void add_part(const Linearisation& lin, const Model& model, const PartAxes& part, bool blades,
                   const std::vector<int>& own, Block block);
 
@@ -83,14 +83,15 @@ private:
                                    const ComplexVector& shape);
     static Patterns patterns(const BladeBlock& block, Eigen::Index component, const Matrix& T,
                              const ComplexVector& shape);
-    static Share pattern_share(const BladeBlock& block, const Patterns& amplitude, std::vector<WhirlShare> higher);
-    static Share mean_share(const BladeBlock& block, Eigen::Index component, const ComplexVector& shape);
-    static Share blade_share(const BladeBlock& block, Eigen::Index component, const Mode& mode,
-                             std::vector<WhirlShare> higher);
-    static Share blade_share(const BladeBlock& block, Eigen::Index component, std::span<const Mode> harmonics,
-                             double rotor_speed);
+    static EnergyFraction pattern_share(const BladeBlock& block, const Patterns& amplitude,
+                                        std::vector<WhirlShare> higher);
+    static EnergyFraction mean_share(const BladeBlock& block, Eigen::Index component, const ComplexVector& shape);
+    static EnergyFraction blade_share(const BladeBlock& block, Eigen::Index component, const Mode& mode,
+                                      std::vector<WhirlShare> higher);
+    static EnergyFraction blade_share(const BladeBlock& block, Eigen::Index component, std::span<const Mode> harmonics,
+                                      double rotor_speed);
 
-    static void divide_by(double total, std::vector<Share>& shares);
+    static void divide_by(double total, std::vector<EnergyFraction>& shares);
 
     int harmonics_ = 1;
     bool two_blades_ = false, blades_differ_ = false, plain_ = false;

@@ -28,14 +28,14 @@ struct FloquetMode {
     /// order). Energy 1 J as for Mode: sum_j c_j^H K_e c_j + |lambda_j|^2 c_j^H M c_j = 2.
     ComplexMatrix harmonics;
     int first_harmonic = 0;
-    /// Share of every column in sum_j |lambda_j|^2 c_j^H M c_j + c_j^H K_e c_j, lambda_j = exponent + i j 2 pi / T; M
-    /// and K_e averaged over the period. Sums to one.
+    /// EnergyFraction of every column in sum_j |lambda_j|^2 c_j^H M c_j + c_j^H K_e c_j, lambda_j = exponent + i j 2 pi
+    /// / T; M and K_e averaged over the period. Sums to one.
     Vector participation;
     /// Harmonics of the states beside the coordinates; empty: there are none.
     ComplexMatrix state_harmonics = {};
-    /// Share of these states in the motion, 0 ... 1: as Mode::state_share, over the period. From 1/2 on it is their
-    /// motion and no vibration; then `participation` is that of the harmonics in the states, in units of their scales,
-    /// instead of the energy, and the largest state is 1.
+    /// EnergyFraction of these states in the motion, 0 ... 1: as Mode::state_share, over the period. From 1/2 on it is
+    /// their motion and no vibration; then `participation` is that of the harmonics in the states, in units of their
+    /// scales, instead of the energy, and the largest state is 1.
     double state_share = 0;
     double condition = 0;  ///< of the exponent: 1 well conditioned, above 1e6 nearly defective (0: not known)
     double error = 0;      ///< estimated, of the exponent, 1/s (NaN: not known)

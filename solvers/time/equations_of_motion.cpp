@@ -41,7 +41,7 @@ std::vector<Drive> all_drives(const Model& model, std::vector<Drive> drives, dou
         entry(given, drive.coordinate) = true;
     }
     for (int i = 0; i < model.size(); ++i)
-        if (model.coordinates()[i].role == CoordinateRole::driven && !entry(given, i))
+        if (model.coordinates()[i].role == CoordinateRole::prescribed && !entry(given, i))
             drives.push_back({i, Motion::constant_rate(q(i), qd(i), time)});
     return drives;
 }

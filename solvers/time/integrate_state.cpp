@@ -48,7 +48,7 @@ std::vector<Drive> drives_from(const System& system, std::vector<Drive> drives, 
     if (from.method.positions.size() != n || from.qd.size() != n) return drives;
     for (int i = 0; i < n; ++i) {
         const bool given = std::ranges::find(drives, i, &Drive::coordinate) != drives.end();
-        if (!given && system.model.coordinates()[i].role == CoordinateRole::driven)
+        if (!given && system.model.coordinates()[i].role == CoordinateRole::prescribed)
             drives.push_back({i, Motion::constant_rate(from.method.positions(i), from.qd(i), from.method.since)});
     }
     return drives;

@@ -30,7 +30,7 @@ seeds_of_aerodyn() { # <folder>
     done
 }
 
-# Inputs take a second; the limit of one is 60 s of the clock, since beside other work these programs, as the nicest, may
+# Inputs take a second; the limit of one is 300 s of the clock, since beside other work these programs, as the nicest, may
 # get no processor for long.
 fuzz() { # <target>
     local target="$1" seeds="build/fuzz/seeds/$1" corpus="build/fuzz/corpus/$1" log="build/fuzz/$1.log"
@@ -42,7 +42,7 @@ fuzz() { # <target>
         urdf) cp tests/fuzz/seeds/urdf/* examples/data/*.urdf "$seeds" ;;
         *) cp "tests/fuzz/seeds/$target/"* "$seeds" ;;
     esac
-    if ! nice -n 19 "build/sanitize/tests/fuzz/fuzz_$target" "$limit" -timeout=60 -rss_limit_mb=2048 \
+    if ! nice -n 19 "build/sanitize/tests/fuzz/fuzz_$target" "$limit" -timeout=300 -rss_limit_mb=2048 \
         -max_len=16384 -artifact_prefix=build/fuzz/findings/ -print_final_stats=1 "$corpus" "$seeds" >"$log" 2>&1; then
         tail -40 "$log" >&2
         echo "fuzzing: $target has a finding, see build/fuzz/findings and $log" >&2

@@ -224,7 +224,7 @@ TEST_CASE("singular metric: no polar inertia behind a torsion joint names the co
 }
 
 TEST_CASE("singular metric: it is legal where the coordinate is driven or has an armature", "[property]") {
-    CHECK(Model(rod(0, CoordinateRole::driven).tree).size() == 2);
+    CHECK(Model(rod(0, CoordinateRole::prescribed).tree).size() == 2);
     Rod geared = rod(0);
     geared.tree.add_armature({"spin", 0.2, {{geared.torsion, 1}}});
     CHECK(Model(geared.tree).size() == 2);
@@ -250,7 +250,7 @@ TEST_CASE("singular metric: a massless leaf names its coordinate", "[property]")
         };
         check_refused([&] { make(CoordinateRole::free, false); },
                       {"singular metric", "coordinate 'vane motion'", "body 'vane'"});
-        CHECK(make(CoordinateRole::driven, false) == 2);
+        CHECK(make(CoordinateRole::prescribed, false) == 2);
         CHECK(make(CoordinateRole::free, true) == 2);
     }
 }

@@ -126,11 +126,11 @@ TEST_CASE("reuse: a mode solver gives the modes of fresh ones, in any order and 
 TEST_CASE("reuse: shares and energies written into used memory are those written into fresh memory", "[property]") {
     const SmallRotor rotor = rotor_on_elastic_support();
     const ColemanTransform coleman(rotor.map, rotor.unknowns());
-    const EnergyShares energy_shares(linearise(rotor.system, rotor.spinning(0)), rotor.system.model, rotor.map,
-                                     rotor.unknowns(), coleman.rows());
+    const EnergyFractions energy_shares(linearise(rotor.system, rotor.spinning(0)), rotor.system.model, rotor.map,
+                                        rotor.unknowns(), coleman.rows());
     ModeSolver solver(std::ssize(rotor.unknowns()));
     Mode mode;
-    std::vector<Share> shares(17, Share{.component = 4, .whirl = 3, .higher = {{1, 2, 3}}});
+    std::vector<EnergyFraction> shares(17, EnergyFraction{.component = 4, .whirl = 3, .higher = {{1, 2, 3}}});
     Vector by_row = Vector::Constant(99, 5);
     for (const double speed : mixed_speeds) {
         const SecondOrderSystem system = fresh_system(rotor, coleman, speed);
@@ -138,7 +138,7 @@ TEST_CASE("reuse: shares and energies written into used memory are those written
         for (std::size_t i = 0; i < count; ++i) {
             solver.copy(i, mode);
             energy_shares.shares(mode, shares);
-            const std::vector<Share> fresh = energy_shares.shares(mode);
+            const std::vector<EnergyFraction> fresh = energy_shares.shares(mode);
             REQUIRE(shares.size() == fresh.size());
             for (std::size_t c = 0; c < fresh.size(); ++c) {
                 CHECK(shares[c].component == fresh[c].component);

@@ -3,7 +3,7 @@
 #include "solvers/algebra/fft.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "solvers/equilibrium/buckling.hpp"
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "solvers/equilibrium/load_stability.hpp"
 #include "solvers/linear/coleman.hpp"
 #include "solvers/linear/modes.hpp"
@@ -143,7 +143,7 @@ TEST_CASE("bad input: values that are not finite, invalid tolerances, empty func
              {"load stability growth", [&] { static_cast<void>(load_stability(system, {.growth = bad})); }},
              {"load path",
               [&] {
-                  static_cast<void>(load_path(system, {.factors = {0, bad}}));
+                  static_cast<void>(equilibrium_path(system, {.factors = {0, bad}}));
               }},
              {"harmonic motion", [&] { Motion::harmonic(0, 1, bad); }},
              {"samples", [&] { sample_times(bad, 1, 0.1); }}},

@@ -83,7 +83,7 @@ Tree random_tree(Random& random, const RandomTreeOptions& options) {
             spec.inertia = random_inertia(random);
         else
             massless_run[i] = run + 1;
-        if (k < options.driven) spec.coordinate.role = CoordinateRole::driven;
+        if (k < options.driven) spec.coordinate.role = CoordinateRole::prescribed;
         ids.push_back(tree.add_body(spec));
     }
     if (options.armatures && n > 3) {

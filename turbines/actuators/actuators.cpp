@@ -23,7 +23,7 @@ void for_each_blade(TurbineDescription& machine, const std::function<void(BladeD
 
 // Largest inertia of the blades about their pitch axes, undeformed, kg m^2; 0 also for what is only rounding.
 double pitch_inertia(TurbineDescription machine) {
-    for_each_blade(machine, [](BladeDescription& blade) { blade.pitch = driven_joint; });
+    for_each_blade(machine, [](BladeDescription& blade) { blade.pitch = prescribed_joint; });
     machine.tower.rigid = true;
     machine.platform.reset();
     AssemblyOptions options;
@@ -100,7 +100,7 @@ void give_pitch_drives(TurbineDescription& machine) {
         if (blade.linkage)
             throw InputError(machine.name, "pitch linkage", "a push rod that turns the blade",
                              "none where a controller sets the pitch");
-        if (!has_spring(blade.pitch)) blade.pitch = driven_joint;
+        if (!has_spring(blade.pitch)) blade.pitch = prescribed_joint;
     });
 }
 
@@ -135,7 +135,7 @@ ActuatedForces::ActuatedForces(const Turbine& turbine, ActuatorOptions options)
     const Model& model = turbine.system().model;
     for (std::size_t k = 0; k < layout_.pitch.size(); ++k) {
         PitchBearing bearing{model.index(layout_.pitch[k])};
-        bearing.prescribed = model.coordinates()[bearing.coordinate].role == CoordinateRole::driven;
+        bearing.prescribed = model.coordinates()[bearing.coordinate].role == CoordinateRole::prescribed;
         const LinearLaw* const spring = spring_of(turbine.forces(), layout_.pitch[k]);
         const std::string where = text("pitch bearing of blade ", layout_.blade_numbers[k]);
         if (!bearing.prescribed && !spring)

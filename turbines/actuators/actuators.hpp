@@ -60,8 +60,8 @@ struct ActuatorDemands {
 
 /// Forces of a machine with actuators. How a blade follows its demand:
 ///
-/// * Its pitch is prescribed (give_pitch_drives(), JointSupport::Kind::driven): it goes as solvers::SampledController
-/// says,
+/// * Its pitch is prescribed (give_pitch_drives(), JointSupport::Kind::prescribed): it goes as
+/// solvers::SampledController says,
 ///   within two periods. The torque that it takes is that of the coordinate's drive.
 /// * Its bearing has a spring, which rests at the demand: the moment towards feather is stiffness (demand - pitch) -
 ///   damping d(pitch)/dt, as of BeamDyn's pitch actuator.

@@ -34,7 +34,7 @@ constexpr std::array<StateKindOfAir, UnsteadyAirfoil::states> airfoil_states{{{"
 void find_first_states(AirLags& lags) {
     lags.first.clear();
     lags.states = 0;
-    for (const SectionLags& section : lags.sections) {
+    for (const UnsteadySection& section : lags.sections) {
         lags.first.push_back(lags.states);
         lags.states += section.states();
     }
@@ -54,7 +54,7 @@ std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& 
     std::vector<StateInfo> all;
     const std::size_t count = parts.airfoil->sections();
     for (std::size_t i = 0; i < parts.lags->sections.size(); ++i) {
-        const SectionLags& lags = parts.lags->sections[i];
+        const UnsteadySection& lags = parts.lags->sections[i];
         const int number = blade_numbers[i / count];
         const auto add = [&](const StateKindOfAir& kind, const char* part) {
             all.push_back({.name = text("blade ", number, " section ", i % count + 1, " ", kind.name),
@@ -97,22 +97,22 @@ MachineAir MachineAir::with(AirLags lags) const {
     return MachineAir(parts);
 }
 
-MachineAir MachineAir::lagging(AirLagOptions options) const {
+MachineAir MachineAir::lagging(UnsteadyAeroOptions options) const {
     const AeroBlade& blade = *parts_->airfoil;
     if (!options.airfoils.empty() && options.airfoils.size() != blade.polars.size())
         throw InputError("air that lags", "number of airfoils", options.airfoils.size(),
                          text(blade.polars.size(), ", that of the blade's polars, or none"));
-    if (options.dynamic_wake) require_positive("air that lags", "time of the wake [s]", options.wake_time);
+    if (options.dynamic_inflow) require_positive("air that lags", "time of the wake [s]", options.inflow_time_constant);
     AirLags lags;
     lags.airfoils = std::make_shared<const std::vector<UnsteadyAirfoil>>(std::move(options.airfoils));
     const double tip = blade.position.back();
     for (const AirBlade& own : parts_->blades)
         for (std::size_t i = 0; i < blade.sections(); ++i) {
-            SectionLags& section = lags.sections.emplace_back();
+            UnsteadySection& section = lags.sections.emplace_back();
             if (!lags.airfoils->empty()) section.airfoil = &(*lags.airfoils)[blade.airfoil[i]];
-            if (!options.dynamic_wake || !has_balance(own.sections[i].annulus, parts_->options)) continue;
+            if (!options.dynamic_inflow || !has_balance(own.sections[i].annulus, parts_->options)) continue;
             section.wake = WakeLag::dynamic;
-            section.times = inflow_times(options.wake_time, blade.position[i] / tip);
+            section.times = inflow_times(options.inflow_time_constant, blade.position[i] / tip);
         }
     return with(std::move(lags));
 }
@@ -127,7 +127,7 @@ MachineAir MachineAir::with_frozen_wake(std::span<const std::vector<std::vector<
     AirLags lags = lags_of(*parts_);
     const std::size_t count = parts_->airfoil->sections();
     const double share = 1 / static_cast<double>(states.size());
-    for (SectionLags& section : lags.sections) {
+    for (UnsteadySection& section : lags.sections) {
         section.wake = WakeLag::frozen;
         section.velocity.setZero();
     }
@@ -166,7 +166,7 @@ Vector MachineAir::steady_states(const ElementView& at) const {
     return out;
 }
 
-double MachineAir::wake_time(const ElementView& at) const {
+double MachineAir::inflow_time_constant(const ElementView& at) const {
     const std::vector<std::vector<SectionAir>> now = sections(at);
     std::vector<double> shares, axial;
     double wind = 0;

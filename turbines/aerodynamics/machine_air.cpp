@@ -27,7 +27,7 @@ void write_wrenches(const AirParts& parts, const AirEvaluation& air, std::span<W
 }  // namespace
 
 MachineAir::MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind, const RotorAirOptions& options,
-                       const AeroSupport& support) {
+                       const TowerNacelleAero& support) {
     blade.check();
     const MachineLayout& layout = turbine.layout();
     if (layout.blades.empty()) throw InputError("air on a machine", "number of blades", 0, "at least 1");

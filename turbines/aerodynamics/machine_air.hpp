@@ -26,12 +26,13 @@ namespace cardan::turbines {
 struct AirLags;
 
 /// Options of unsteady aerodynamics: states of first order that lag behind the motion.
-struct AirLagOptions {
+struct UnsteadyAeroOptions {
     /// In the place of the blade's polars, one for each; those of cylinders and of the like lag in nothing. Empty:
     /// airfoils are steady.
     std::vector<UnsteadyAirfoil> airfoils = {};
-    bool dynamic_wake = false;  ///< DynamicInflow in every section but those without balance of momentum, root and tip
-    double wake_time = 0;       ///< tau_1 of a dynamic wake, s: MachineAir::wake_time()
+    bool dynamic_inflow =
+        false;  ///< DynamicInflow in every section but those without balance of momentum, root and tip
+    double inflow_time_constant = 0;  ///< tau_1 of a dynamic wake, s: MachineAir::inflow_time_constant()
 };
 
 /// Immutable, cheap to copy, may be used by several threads.
@@ -45,9 +46,9 @@ public:
     /// @throws InputError for a machine without blades, sections beyond the ends of the blade, and as
     /// AeroBlade::check() and TowerAir
     MachineAir(const Turbine& turbine, AeroBlade blade, const Wind& wind, const RotorAirOptions& options = {},
-               const AeroSupport& support = {});
+               const TowerNacelleAero& support = {});
     MachineAir(const Turbine& turbine, AeroBlade blade, const SteadyWind& wind, const RotorAirOptions& options = {},
-               const AeroSupport& support = {})
+               const TowerNacelleAero& support = {})
         : MachineAir(turbine, std::move(blade), Wind(wind), options, support) {}
 
     /// A copy in another wind.
@@ -55,7 +56,7 @@ public:
 
     /// A copy with air that lags. Functions of a state then take the states of the air as well: values().
     /// @throws InputError for another number of airfoils than of polars, a time that is not positive
-    MachineAir lagging(AirLagOptions options) const;
+    MachineAir lagging(UnsteadyAeroOptions options) const;
     /// A copy whose induced velocities are those of a state for ever; airfoils lag as before.
     MachineAir with_frozen_wake(const ElementView& at) const;
     /// The mean of several states, such as those of a revolution: sections().
@@ -71,7 +72,7 @@ public:
     /// States that stay as they are while the machine moves as it does.
     Vector steady_states(const ElementView& at) const;
     /// tau_1 of a dynamic wake by the mean induction and wind of a state, s: inflow_time().
-    double wake_time(const ElementView& at) const;
+    double inflow_time_constant(const ElementView& at) const;
 
     /// "air": forces on the blades, for ForceSet::add_element(); those on tower and nacelle: support().element(). Valid
     /// for every machine with the tree of `turbine`. Exact derivatives; no allocation. Loads per length are linear

@@ -172,7 +172,7 @@ void TowerAir::Parts::add_nacelle(const Turbine& turbine, const AeroNacelle& nac
     has_nacelle = true;
 }
 
-TowerAir::TowerAir(const Turbine& turbine, const AeroSupport& support, const Wind& wind) {
+TowerAir::TowerAir(const Turbine& turbine, const TowerNacelleAero& support, const Wind& wind) {
     support.tower.check();
     support.nacelle.check();
     const auto parts = std::make_shared<Parts>();

@@ -31,7 +31,7 @@ public:
     /// rotor's: MachineAir.
     /// @throws InputError for drag of a tower or a nacelle that the machine does not have, rows beyond the ends of the
     /// tower, and as AeroTower::check() and AeroNacelle::check()
-    TowerAir(const Turbine& turbine, const AeroSupport& support, const Wind& wind);
+    TowerAir(const Turbine& turbine, const TowerNacelleAero& support, const Wind& wind);
 
     /// A copy in another wind.
     TowerAir in(const Wind& wind) const;

@@ -103,8 +103,8 @@ void set_speeds(const Machine& machine, const Ratings& rated, VariableSpeedParam
     // The parabola must end below rated torque, so that the line of the slip meets it below rated speed.
     p.optimal_gain = std::min(p.optimal_gain, 0.95 * rated.torque / (p.rated_speed * p.rated_speed));
     const double highest = p.torque_law().transition_speed();
-    p.cut_in = std::min(min > 0 ? min : 0.4 * rated.speed, 0.9 * highest);
-    p.optimum_from = std::min(optimum_ratio * p.cut_in, (p.cut_in + highest) / 2);
+    p.region_1_5_speed = std::min(min > 0 ? min : 0.4 * rated.speed, 0.9 * highest);
+    p.region_2_speed = std::min(optimum_ratio * p.region_1_5_speed, (p.region_1_5_speed + highest) / 2);
 }
 
 double largest_fine_pitch(const Machine& machine) {

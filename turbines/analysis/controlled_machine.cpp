@@ -31,7 +31,7 @@ solvers::SampledController baseline_controller(const Controller& own, const Turb
 int prescribed_yaw(const Turbine& turbine) {
     const Model& model = turbine.system().model;
     const std::optional<BodyId>& yaw = turbine.layout().yaw;
-    if (!yaw || model.coordinates()[model.index(*yaw)].role != CoordinateRole::driven) return -1;
+    if (!yaw || model.coordinates()[model.index(*yaw)].role != CoordinateRole::prescribed) return -1;
     return model.index(*yaw);
 }
 

@@ -47,8 +47,8 @@ std::string min_in_words(const VariableSpeedParameters& p) {
 // All numbers, since a caller may set them.
 std::string in_words(const VariableSpeedParameters& p) {
     std::string words =
-        text(" with filter ", digits(p.corner_frequency), " rad/s, torque from ", digits(p.cut_in), " and ",
-             digits(p.optimum_from), " to ", digits(p.rated_speed), " rad/s, optimum ", digits(p.optimal_gain),
+        text(" with filter ", digits(p.corner_frequency), " rad/s, torque from ", digits(p.region_1_5_speed), " and ",
+             digits(p.region_2_speed), " to ", digits(p.rated_speed), " rad/s, optimum ", digits(p.optimal_gain),
              " N m s^2/rad^2, slip ", digits(p.slip), ", rated ", digits(p.rated_power), " W, ",
              p.constant_power ? "constant power" : "constant torque", " from ", digits(p.constant_power_pitch),
              " rad, at most ", digits(p.max_torque), " N m and ", digits(p.max_torque_rate), " N m/s, pitch for ",

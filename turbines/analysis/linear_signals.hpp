@@ -1,4 +1,5 @@
-/// @file Inputs and outputs of a machine's linear models, by name.
+/// @file
+/// Inputs and outputs of a machine's linear models, by name.
 #pragma once
 
 #include "solvers/linear_models/state_space.hpp"

@@ -36,7 +36,7 @@ solvers::Campbell blade_modes(const Machine& machine, const PartModesSettings& s
     MachineSettings own = settings.machine;
     own.pitch = pitch_at_speed(own.pitch, machine, speeds.back());
     AssemblyOptions assembly = assembly_options(machine, own, false);
-    assembly.spin = CoordinateRole::driven;
+    assembly.spin = CoordinateRole::prescribed;
     assembly.mesh.max_hz = limit(settings, clamped_blade_hz(d, assembly, d.first_blade()));
     assembly.mesh.rotor_speed = std::abs(speeds.back());
     return diagram(isolated_blade(d, assembly, d.first_blade()), speeds, assembly.mesh.max_hz,

@@ -17,7 +17,7 @@ namespace {
 void set_yaw(YawDof asked, Machine& machine) {
     JointSupport& yaw = machine.description.yaw.rotation;
     if (asked == YawDof::locked) yaw = rigid_joint;
-    if (asked == YawDof::prescribed) yaw = driven_joint;
+    if (asked == YawDof::prescribed) yaw = prescribed_joint;
     if (asked != YawDof::free || !yaw.is_rigid()) return;
     if (machine.yaw_drive.is_rigid())
         throw InputError("MachineSettings::yaw", "value", "free", "locked: the model gives no spring of a yaw drive");

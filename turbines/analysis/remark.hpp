@@ -1,4 +1,5 @@
-/// @file Remarks of an analysis beside its result.
+/// @file
+/// Remarks of an analysis beside its result.
 #pragma once
 
 #include "turbines/readers/turbine_file.hpp"

@@ -1,4 +1,5 @@
-/// @file Resuming a run from its file: only if it is the same run.
+/// @file
+/// Resuming a run from its file: only if it is the same run.
 #pragma once
 
 #include "solvers/time/integrate.hpp"

@@ -1,4 +1,5 @@
-/// @file Settings of the analyses of a machine: every field with its default. SI units and radians.
+/// @file
+/// Settings of the analyses of a machine: every field with its default. SI units and radians.
 ///
 /// All fields have names, so that only what differs is written, at once, in the order that the compiler asks for, or
 /// one by one in any order:

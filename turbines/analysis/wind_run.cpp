@@ -125,12 +125,13 @@ WindRun wind_run(const Machine& source, const WindRunOptions& options) {
             .scheduled = std::move(wanted)};
 }
 
-const WindPoint* next_point(WindRun& run) {
+const WindOperatingPoint* next_point(WindRun& run) {
     const WindRunOptions& o = run.options;
     const auto cancelled = [&] { return o.cancelled && o.cancelled(); };
     while (run.tried < o.winds.size() && !cancelled()) {
         const std::size_t i = run.tried;
-        WindPoint point = run.law ? run.operation.at(o.winds[i], *run.law) : run.operation.at(run.scheduled[i]);
+        WindOperatingPoint point =
+            run.law ? run.operation.at(o.winds[i], *run.law) : run.operation.at(run.scheduled[i]);
         if (!point.converged && cancelled()) break;
         run.complete = ++run.tried == o.winds.size();
         if (point.converged) {
@@ -157,7 +158,7 @@ FinerPoint finer_point(const WindRun& run, const Operation& at) {
     settings.tower_elements = 2 * run.ready.mesh.tower_elements;
     WindOperation operation(run.machine.description, assembly_options(run.machine, settings, run.options.gravity),
                             run.air.blade, run.in_wind);
-    WindPoint point = operation.at(at);
+    WindOperatingPoint point = operation.at(at);
     return {std::move(operation), std::move(point)};
 }
 

@@ -38,11 +38,11 @@ struct WindRun {
     WindOperation operation;
     std::optional<VariableSpeed> law = {};  ///< how it runs; none: `scheduled`, by wind
     std::vector<Operation> scheduled = {};
-    std::size_t tried = 0;                   ///< of the winds
-    std::vector<WindPoint> points = {};      ///< that converged
-    std::vector<double> not_converged = {};  ///< winds of the others, m/s
-    double truncation_residual = 0;          ///< WindPoint::remainder, the largest
-    bool complete = false;                   ///< all winds were tried
+    std::size_t tried = 0;                        ///< of the winds
+    std::vector<WindOperatingPoint> points = {};  ///< that converged
+    std::vector<double> not_converged = {};       ///< winds of the others, m/s
+    double truncation_residual = 0;               ///< WindOperatingPoint::remainder, the largest
+    bool complete = false;                        ///< all winds were tried
 };
 
 /// Prepares a run over winds, without points as yet.
@@ -52,7 +52,7 @@ WindRun wind_run(const Machine& source, const WindRunOptions& options);
 
 /// The next point that converges, which is the last of the run's points then; those that do not are reported as
 /// warnings. Null: there are no more, or it was cancelled.
-const WindPoint* next_point(WindRun& run);
+const WindOperatingPoint* next_point(WindRun& run);
 
 /// Finds all operating points.
 void find_points(WindRun& run);
@@ -61,7 +61,7 @@ void find_points(WindRun& run);
 /// at rest do.
 struct FinerPoint {
     WindOperation operation;
-    WindPoint point;
+    WindOperatingPoint point;
 };
 FinerPoint finer_point(const WindRun& run, const Operation& at);
 

@@ -11,13 +11,13 @@ namespace {
 
 // Base axes, m.
 double foot_at_rest(const Turbine& turbine) {
-    const FrameId foot = turbine.layout().tower_foot;
+    const FrameId foot = turbine.layout().tower_base;
     return foot == FrameId{} ? 0 : place_at_rest(turbine, foot).z();
 }
 
 // As the model counts heights, m.
 double foot_height(const Turbine& turbine, const Machine& machine) {
-    return machine.site.tower_foot.value_or(foot_at_rest(turbine));
+    return machine.site.tower_base.value_or(foot_at_rest(turbine));
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ Machine machine_of(TurbineFile file) {
     Machine machine;
     machine.description = std::move(file.description);
     machine.yaw_drive = file.yaw_drive;
-    machine.site.tower_foot = file.tower_foot;
+    machine.site.tower_base = file.tower_base;
     machine.site.gravity = file.gravity;
     machine.operation = {.rotor_speed = file.rotor_speed,
                          .rotor_speed_source = std::move(file.rotor_speed_source),
@@ -65,7 +65,7 @@ Machine machine_of(TurbineFile file) {
     return machine;
 }
 
-AeroSupport support_on(const Turbine& turbine, const Machine& machine, AeroSupport support) {
+TowerNacelleAero support_on(const Turbine& turbine, const Machine& machine, TowerNacelleAero support) {
     support.tower.foot = foot_height(turbine, machine);
     return support;
 }

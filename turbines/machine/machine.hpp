@@ -21,9 +21,9 @@ struct Aerodynamics {
     RotorAirOptions options = {};
     double density = 1.225;  ///< kg/m^3
     /// Drag of tower and nacelle, tower influence. Heights as the file has them: support_on() sets the tower's foot.
-    AeroSupport support = {};
+    TowerNacelleAero support = {};
     /// In the place of the blade's polars, one for each, where the flow lags behind the motion
-    /// (AirLagOptions::airfoils); empty: there are no data of it.
+    /// (UnsteadyAeroOptions::airfoils); empty: there are no data of it.
     std::vector<UnsteadyAirfoil> unsteady_airfoils = {};
     /// Sweep of the aerodynamic centres behind the pitch axis, m, for all that asks for the torsion of the blade, where
     /// `blade` has them on that axis for the sake of comparison; empty: those of `blade` hold.
@@ -41,7 +41,7 @@ struct Site {
     double gravity = units::standard_gravity;  ///< m/s^2, downward, in analyses with gravity
     /// Of the tower's foot above the ground or the still water, m, as the model counts heights; none: as the machine
     /// stands.
-    std::optional<double> tower_foot = std::nullopt;
+    std::optional<double> tower_base = std::nullopt;
 };
 
 /// Operation of a machine, as far as its source says so; 0 and empty: it does not.
@@ -81,8 +81,8 @@ Machine machine_of(TurbineDescription description);
 /// The machine of what a reader of a model returns.
 Machine machine_of(TurbineFile file);
 
-/// Tower and nacelle of its air, on the foot of the tower: Site::tower_foot, else that of the machine at rest.
-AeroSupport support_on(const Turbine& turbine, const Machine& machine, AeroSupport support);
+/// Tower and nacelle of its air, on the foot of the tower: Site::tower_base, else that of the machine at rest.
+TowerNacelleAero support_on(const Turbine& turbine, const Machine& machine, TowerNacelleAero support);
 /// A uniform wind of no speed whose heights are those of the machine: reference height at the rotor's centre, ground
 /// below the tower's foot.
 SteadyWind still_wind(const Turbine& turbine, const Machine& machine, double density);

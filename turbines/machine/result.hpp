@@ -1,4 +1,5 @@
-/// @file Record of how results were made: HDF5 files of any kind, those of histories that are being written as well.
+/// @file
+/// Record of how results were made: HDF5 files of any kind, those of histories that are being written as well.
 #pragma once
 
 #include <filesystem>

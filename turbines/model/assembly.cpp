@@ -190,7 +190,7 @@ PartDamping damping_of_tower(const TurbineDescription& whole, const AssemblyOpti
     if (!options.structural_damping) return {};
     if (whole.tower.first_mode_damping != 0) whole.check();
     AssemblyOptions held = options;  // all but the tower is held: a rotor may be without inertia
-    held.spin = CoordinateRole::driven;
+    held.spin = CoordinateRole::prescribed;
     return {tower_damping(whole, held), {}};
 }
 

@@ -19,7 +19,7 @@ struct MachineLayout {
     /// "platform surge" ... "platform yaw"; its frame has its origin at the reference point, x downwind, z up.
     std::optional<MovingBase> platform;
     std::optional<CardanBeam> tower;  ///< none: rigid
-    FrameId tower_foot, tower_top;    ///< axes of the tower's beam; x downwind, z up at rest; a blade alone
+    FrameId tower_base, tower_top;    ///< axes of the tower's beam; x downwind, z up at rest; a blade alone
                                       ///< has none: the ground
     FrameId shaft;                    ///< carries the drive train, x along the shaft, downwind
     FrameId rotor_centre;             ///< RotorMap::hub: spins with the shaft, does not teeter

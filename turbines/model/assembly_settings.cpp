@@ -35,7 +35,7 @@ std::string settings(const TurbineDescription& d, const AssemblyOptions& o) {
         o.gravity(2), ") m/s^2, structural damping ", o.structural_damping ? "on" : "off", ", joint damping ",
         o.joint_damping ? "on" : "off", ", main shaft ",
         o.shaft_beam ? text("a beam of EI ", o.shaft_beam->EI, " N m^2") : std::string("a torsion spring"),
-        o.spin.value_or(d.drive_train.spin) == CoordinateRole::driven ? ", rotor speed prescribed" : "",
+        o.spin.value_or(d.drive_train.spin) == CoordinateRole::prescribed ? ", rotor speed prescribed" : "",
         o.pitch_drives ? ", pitch prescribed" : "",
         d.platform ? text(", on a ", d.platform->name, " of ", d.platform->inertia.mass, " kg") : std::string());
 }

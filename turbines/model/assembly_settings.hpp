@@ -1,4 +1,5 @@
-/// @file Settings of an assembly, as text for the description stored with every result.
+/// @file
+/// Settings of an assembly, as text for the description stored with every result.
 #pragma once
 
 #include "turbines/model/assembly.hpp"

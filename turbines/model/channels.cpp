@@ -157,7 +157,7 @@ ChannelGroup tower_motion_channels(const Turbine& source) {
     group.sample = [source, yaw](const DynamicView& in, double* values) {
         const MachineLayout& layout = source.layout();
         const Kinematics& kin = in.kinematics;
-        const Pose<double> foot = pose(kin, layout.tower_foot), top = pose(kin, layout.tower_top);
+        const Pose<double> foot = pose(kin, layout.tower_base), top = pose(kin, layout.tower_top);
         const int body = kin.model().frame(layout.tower_top).body;
         Vec3 d = Vec3::Zero(), a = Vec3::Zero();  // a rigid tower on the ground has neither
         if (layout.tower) d = top.p - foot.p - foot.R * layout.tower->line.pose(layout.tower->line.length).p;
@@ -182,7 +182,7 @@ ChannelGroup tower_load_channels(const Turbine& source) {
     const std::optional<RigidTower> rigid = source.layout().tower ? std::nullopt : std::optional<RigidTower>(source);
     group.sample = [source, rigid](const DynamicView& in, double* values) {
         const std::optional<CardanBeam>& tower = source.layout().tower;
-        const Mat3 foot = foot_axes(pose(in.kinematics, source.layout().tower_foot).R),
+        const Mat3 foot = foot_axes(pose(in.kinematics, source.layout().tower_base).R),
                    top = pose(in.kinematics, source.layout().tower_top).R;
         const Wrench base_load = rigid ? rigid->foot_load(source, in) : beam_load(in, *tower, false),
                      top_load = rigid ? rigid->top_load(source, in) : beam_load(in, *tower, true);
@@ -293,7 +293,7 @@ ChannelGroup drive_channels(const Turbine& turbine) {
     ChannelGroup group;
     std::vector<int> driven;
     for (int a = 0; a < table.size(); ++a) {
-        if (table[a].role != CoordinateRole::driven) continue;
+        if (table[a].role != CoordinateRole::prescribed) continue;
         driven.push_back(a);
         group.channels.push_back({.name = table[a].name,
                                   .units = table[a].unit,

@@ -9,7 +9,7 @@ namespace cardan::turbines {
 
 namespace {
 
-using Hold = JointSupport::Kind;
+using Kind = JointSupport::Kind;
 
 // The units of a spring: about or along an axis.
 struct SpringUnits {
@@ -21,7 +21,7 @@ void check_bearing(const std::string& machine, const std::string& field, const J
                    const SpringUnits& units) {
     const std::string stiffness = text(field, ".stiffness", units.stiffness),
                       damping = text(field, ".damping", units.damping);
-    const bool spring = bearing.kind == Hold::spring, has_damper = spring || bearing.kind == Hold::free;
+    const bool spring = bearing.kind == Kind::spring, has_damper = spring || bearing.kind == Kind::free;
     if (spring && std::isnan(bearing.stiffness))
         throw InputError(machine, stiffness, "not given", "> 0, or free_joint, rigid_joint, driven_joint");
     if (spring && !(bearing.stiffness > 0 && std::isfinite(bearing.stiffness)))
@@ -30,13 +30,14 @@ void check_bearing(const std::string& machine, const std::string& field, const J
     if (!spring && bearing.stiffness != 0)
         throw InputError(machine, stiffness, bearing.stiffness, "0: only JointSupport::Kind::spring has a spring");
     if (has_damper) return require_not_negative(machine, damping, bearing.damping);
-    if (bearing.damping != 0) throw InputError(machine, damping, bearing.damping, "0: the joint is rigid or driven");
+    if (bearing.damping != 0)
+        throw InputError(machine, damping, bearing.damping, "0: the joint is rigid or prescribed");
 }
 
 void check_shaft(const std::string& machine, const std::string& field, const JointSupport& shaft) {
-    if (shaft.kind == Hold::free || shaft.kind == Hold::driven)
-        throw InputError(machine, field, shaft.kind == Hold::free ? "free" : "driven",
-                         "a spring, or rigid_joint; the rotor is driven by drive_train.spin");
+    if (shaft.kind == Kind::free || shaft.kind == Kind::prescribed)
+        throw InputError(machine, field, shaft.kind == Kind::free ? "free" : "driven",
+                         "a spring, or rigid_joint; drive_train.spin is what prescribes the rotor");
     check_bearing(machine, field, shaft, about);
 }
 
@@ -76,7 +77,7 @@ void check_damping(const BeamDamping& damping, const std::string& field, const R
 
 void check_linkage(const std::string& machine, const BladeDescription& blade, const std::string& field) {
     const PitchLinkage& linkage = *blade.linkage;
-    if (blade.pitch.kind == Hold::driven || blade.pitch.is_rigid())
+    if (blade.pitch.kind == Kind::prescribed || blade.pitch.is_rigid())
         throw InputError(machine, field + ".pitch", blade.pitch.is_rigid() ? "rigid" : "driven",
                          "free_joint or a spring: the linkage turns the blade");
     for (const auto& [name, v] : {std::pair{".linkage.crank_pin", &linkage.crank_pin},
@@ -84,9 +85,9 @@ void check_linkage(const std::string& machine, const BladeDescription& blade, co
                                   {".linkage.direction", &linkage.direction}})
         if (!v->allFinite()) throw InputError(machine, field + name, v->transpose(), "finite");
     if (linkage.direction.isZero(0)) throw InputError(machine, field + ".linkage.direction", "0 0 0", "a direction");
-    if (linkage.actuator.kind != Hold::driven && linkage.actuator.kind != Hold::spring)
+    if (linkage.actuator.kind != Kind::prescribed && linkage.actuator.kind != Kind::spring)
         throw InputError(machine, field + ".linkage.actuator", linkage.actuator.is_rigid() ? "rigid" : "free",
-                         "driven or a spring");
+                         "prescribed or a spring");
     check_bearing(machine, field + ".linkage.actuator", linkage.actuator, along);
     require_positive(machine, field + ".linkage.mass [kg]", linkage.mass);
     const Vec3 rod = linkage.crank_pin - linkage.actuator_pin;

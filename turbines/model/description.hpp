@@ -18,20 +18,20 @@ namespace cardan::turbines {
 
 /// Support of a joint of a machine: bearings, drives, shafts. One that was not given is refused by name on assembly.
 struct JointSupport {
-    enum class Hold : std::uint8_t {
-        spring,  ///< spring and damper
-        free,    ///< nothing but the damper
-        rigid,   ///< the machine has no such joint and no coordinate for it
-        driven   ///< the coordinate is prescribed: zero, or as a Motion says
+    enum class Kind : std::uint8_t {
+        spring,     ///< spring and damper
+        free,       ///< nothing but the damper
+        rigid,      ///< the machine has no such joint and no coordinate for it
+        prescribed  ///< the coordinate is prescribed: zero, or as a Motion says
     };
     double stiffness = std::numeric_limits<double>::quiet_NaN();  ///< > 0, N m/rad or N/m; only of a spring
     double damping = 0;                                           ///< N m s/rad or N s/m; of a spring or a free joint
-    Hold hold = Hold::spring;
+    Kind kind = Kind::spring;
 
-    bool is_rigid() const { return hold == Hold::rigid; }
+    bool is_rigid() const { return kind == Kind::rigid; }
 };
 inline constexpr JointSupport free_joint{0, 0, JointSupport::Kind::free}, rigid_joint{0, 0, JointSupport::Kind::rigid},
-    driven_joint{0, 0, JointSupport::Kind::driven};
+    prescribed_joint{0, 0, JointSupport::Kind::prescribed};
 
 struct TowerDescription {
     BeamLine line;                  ///< from the ground up
@@ -108,7 +108,7 @@ struct PitchLinkage {
     Vec3 actuator_pin = Vec3::Zero();  ///< of the actuator at no stroke, m
     Vec3 direction = Vec3::Zero();     ///< of its stroke; its length does not matter
     /// Driven: the stroke is prescribed. A spring: the stroke is commanded as its rest (zero), the actuator yields.
-    JointSupport actuator = driven_joint;
+    JointSupport actuator = prescribed_joint;
     double mass = 1;  ///< of what the actuator moves, kg, > 0
 };
 

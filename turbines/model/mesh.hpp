@@ -1,4 +1,5 @@
-/// @file Number of beam elements that a machine needs: as many as it takes until more of them do not move its
+/// @file
+/// Number of beam elements that a machine needs: as many as it takes until more of them do not move its
 /// frequencies.
 ///
 /// The change from n to twice as many elements is, for an order of convergence of two or more, at least three quarters

@@ -1,4 +1,5 @@
-/// @file Angles by which the blades of a machine may turn out of feather.
+/// @file
+/// Angles by which the blades of a machine may turn out of feather.
 #pragma once
 
 #include <vector>

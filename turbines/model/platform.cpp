@@ -109,7 +109,7 @@ void tell_balance(const ForceSet& forces, const Tree& tree, const PlatformDescri
                   std::vector<std::string>& warnings) {
     double mass = 0;
     for (const PartMass& part : masses_by_part(tree)) mass += part.mass;
-    const double weight = -mass * forces.gravity().z(), lift = platform.buoyancy + platform.mooring_pull.z();
+    const double weight = -mass * forces.gravity().z(), lift = platform.buoyancy + platform.mooring_preload.z();
     if (lift == 0 || std::abs(lift - weight) <= 0.01 * std::max(std::abs(weight), std::abs(lift))) return;
     warnings.push_back(text(platform.name, ": a weight of ", weight, " N on a lift of ", lift,
                             " N (buoyancy and mooring lines): it heaves until the stiffness carries the rest"));
@@ -130,14 +130,14 @@ void PlatformDescription::check(const std::string& machine) const {
     const auto finite = [&](const char* quantity, const Vec3& v) {
         if (!v.allFinite()) throw InputError(where, quantity, text(v.transpose()), "finite");
     };
-    finite("foot of the tower [m]", tower_foot);
+    finite("foot of the tower [m]", tower_base);
     finite("centre of buoyancy [m]", buoyancy_centre);
-    finite("pull of the mooring lines [N]", mooring_pull);
+    finite("pull of the mooring lines [N]", mooring_preload);
     require_not_negative(where, "buoyancy [N]", buoyancy);
     require_semidefinite(where, "added mass", added_mass);
     require_semidefinite(where, "damping", damping);
-    require_symmetric(where, "hydrostatic stiffness", hydrostatic);
-    require_symmetric(where, "stiffness of the mooring", mooring);
+    require_symmetric(where, "hydrostatic stiffness", hydrostatic_stiffness);
+    require_symmetric(where, "stiffness of the mooring", mooring_stiffness);
     coordinates.check(where);
 }
 
@@ -151,9 +151,9 @@ PlatformFrames add_platform(Tree& tree, const PlatformDescription& platform) {
     if (!platform.inertia.is_massless()) tree.weld(base.frame, platform.inertia, "platform");
     if (!platform.inertia.com.isZero(0))
         frames.line.insert(frames.line.begin(), at(platform.inertia.com, "platform mass centre"));
-    if (!platform.tower_foot.isZero(0)) {
-        frames.tower_foot = at(platform.tower_foot, "platform top");
-        frames.line.push_back(frames.tower_foot);
+    if (!platform.tower_base.isZero(0)) {
+        frames.tower_base = at(platform.tower_base, "platform top");
+        frames.line.push_back(frames.tower_base);
     }
     add_added_mass(tree, base, platform.added_mass);
     return frames;
@@ -162,12 +162,12 @@ PlatformFrames add_platform(Tree& tree, const PlatformDescription& platform) {
 void add_water_forces(ForceSet& forces, Tree& tree, const MovingBase& base, const PlatformDescription& platform,
                       std::vector<std::string>& warnings) {
     add_dead_load(forces, tree, base, "buoyancy", platform.buoyancy_centre, {0, 0, platform.buoyancy});
-    add_dead_load(forces, tree, base, "mooring pull", Vec3::Zero(), platform.mooring_pull);
+    add_dead_load(forces, tree, base, "mooring pull", Vec3::Zero(), platform.mooring_preload);
     const std::vector<BodyId> all(base.coordinates.begin(), base.coordinates.end());
     if (!platform.damping.isZero(0)) forces.add_law({"platform damping", all, Mat6::Zero(), platform.damping});
     tell_balance(forces, tree, platform, warnings);
 
-    const Mat6 water = platform.hydrostatic + platform.mooring;
+    const Mat6 water = platform.hydrostatic_stiffness + platform.mooring_stiffness;
     if (water.isZero(0) && platform.buoyancy == 0) return;
     const std::vector<Eigen::Index> free = free_coordinates(tree, base);
     Mat6 elastic = Mat6::Zero();

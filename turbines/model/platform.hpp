@@ -35,17 +35,17 @@ struct PlatformDescription {
     /// The platform itself with its ballast; origin at the reference point. Loads at the tower foot exclude it, drive
     /// forces include it.
     RigidInertia inertia = {};
-    Vec3 tower_foot = Vec3::Zero();  ///< from the reference point, m
+    Vec3 tower_base = Vec3::Zero();  ///< from the reference point, m
     Mat6 added_mass = Mat6::Zero();  ///< A: kg, kg m, kg m^2; symmetric, positive semidefinite
     /// C: N/m, N/rad, N m/rad; symmetric. Hydrostatics alone, without weights. If `buoyancy_centre` is the reference
     /// point, as in OpenFAST, the moment of the buoyancy must be included here (a negative entry for roll and pitch of
     /// a deep hull); otherwise the moment follows from the dead load and only the waterplane contributes here.
-    Mat6 hydrostatic = Mat6::Zero();
-    Mat6 mooring = Mat6::Zero();          ///< K, in the same units; symmetric
-    Mat6 damping = Mat6::Zero();          ///< B: N s/m ... N m s/rad; symmetric, positive semidefinite
-    double buoyancy = 0;                  ///< weight of the displaced water, N, upward
-    Vec3 buoyancy_centre = Vec3::Zero();  ///< where it acts, fixed to the platform, m from the reference point
-    Vec3 mooring_pull = Vec3::Zero();     ///< of the lines on the undisplaced platform, ground axes, N
+    Mat6 hydrostatic_stiffness = Mat6::Zero();
+    Mat6 mooring_stiffness = Mat6::Zero();  ///< K, in the same units; symmetric
+    Mat6 damping = Mat6::Zero();            ///< B: N s/m ... N m s/rad; symmetric, positive semidefinite
+    double buoyancy = 0;                    ///< weight of the displaced water, N, upward
+    Vec3 buoyancy_centre = Vec3::Zero();    ///< where it acts, fixed to the platform, m from the reference point
+    Vec3 mooring_preload = Vec3::Zero();    ///< of the lines on the undisplaced platform, ground axes, N
     /// Free (`coordinates.role = CoordinateRole::free`) or driven, all or one by one; by default all six are driven.
     /// Axes, signs and order of rotations are those above unless changed here.
     MovingBaseOptions coordinates = {};
@@ -58,7 +58,7 @@ struct PlatformDescription {
 /// Parts that add_platform() has added.
 struct PlatformFrames {
     MovingBase base;            ///< its frame has its origin at the reference point
-    FrameId tower_foot;         ///< ground axes at rest
+    FrameId tower_base;         ///< ground axes at rest
     std::vector<FrameId> line;  ///< mass centre, reference point, foot of the tower, as far as they differ
 };
 

@@ -51,14 +51,14 @@ PlatformDescription scaled(PlatformDescription p, double s) {
     size << Vec3::Ones(), Vec3::Constant(s);
     const auto scale = [&](Mat6& A, double factor) { A = factor * (size.asDiagonal() * A * size.asDiagonal()); };
     p.inertia = scaled(p.inertia, s);
-    p.tower_foot *= s;
+    p.tower_base *= s;
     p.buoyancy_centre *= s;
-    scale(p.hydrostatic, s);
-    scale(p.mooring, s);
+    scale(p.hydrostatic_stiffness, s);
+    scale(p.mooring_stiffness, s);
     scale(p.damping, power(s, 2));
     scale(p.added_mass, power(s, 3));
     p.buoyancy *= power(s, 2);
-    p.mooring_pull *= power(s, 2);
+    p.mooring_preload *= power(s, 2);
     return p;
 }
 

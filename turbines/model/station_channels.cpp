@@ -127,7 +127,7 @@ void add_tower(std::vector<ChannelGroup>& groups, const MachineLayout& layout, c
     const Mat3 axes = foot_axes(Mat3::Identity());
     const BeamNames names{"tower", "tower base", "TwHt", "t", {"downwind", "to the left", "upward"}};
     add_stations(groups, names, beam, places, [&](double s) {
-        return Gauge{BeamStation(beam, s), layout.tower_foot, beam.line.pose(s), axes, axes};
+        return Gauge{BeamStation(beam, s), layout.tower_base, beam.line.pose(s), axes, axes};
     });
 }
 

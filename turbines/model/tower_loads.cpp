@@ -20,7 +20,7 @@ bool stands_on(const Tree& tree, FrameId frame, FrameId support) {
 RigidTower::RigidTower(const Turbine& turbine) : carrier_(Tree::base()) {
     const Model& model = turbine.system().model;
     const Tree& tree = turbine.tree();
-    body_ = model.frame(turbine.layout().tower_foot).body;
+    body_ = model.frame(turbine.layout().tower_base).body;
     for (int k = 0; k < model.size(); ++k)
         if (model.body(k).parent == body_) joints_.push_back(k);
     for (const Tree::Piece& piece : tree.pieces()) {
@@ -70,8 +70,8 @@ Wrench RigidTower::top_load(const Turbine& source, const DynamicView& in) const 
 }
 
 Wrench RigidTower::foot_load(const Turbine& source, const DynamicView& in) const {
-    Wrench sum = load_above(source.layout().tower_foot, source, in);
-    add_part(sum, tower_, in, pose(in.kinematics, source.layout().tower_foot).p);
+    Wrench sum = load_above(source.layout().tower_base, source, in);
+    add_part(sum, tower_, in, pose(in.kinematics, source.layout().tower_base).p);
     return sum;
 }
 

@@ -19,7 +19,7 @@ constexpr std::array wake_names{std::pair{Wake::frozen, "frozen"}, std::pair{Wak
 // Means over the revolution of what functions of the air say at its states.
 class Revolution {
 public:
-    Revolution(const WindPoint& point, const MachineAir& air, const Model& model)
+    Revolution(const WindOperatingPoint& point, const MachineAir& air, const Model& model)
         : point_(point), air_(air), model_(model) {}
 
     std::vector<std::vector<std::vector<SectionAir>>> sections() const {
@@ -28,9 +28,9 @@ public:
         each([&](const ElementView& at) { all.push_back(air_.sections(at)); });
         return all;
     }
-    double wake_time() const {
+    double inflow_time_constant() const {
         double sum = 0;
-        each([&](const ElementView& at) { sum += air_.wake_time(at); });
+        each([&](const ElementView& at) { sum += air_.inflow_time_constant(at); });
         return sum / static_cast<double>(point_.revolution.size());
     }
     /// @param air  that lags
@@ -50,7 +50,7 @@ private:
         }
     }
 
-    const WindPoint& point_;
+    const WindOperatingPoint& point_;
     const MachineAir& air_;
     const Model& model_;
 };
@@ -76,7 +76,7 @@ Wake wake_named(std::string_view name, const char* option) {
     throw InputError(option, "value", std::string(name), "frozen, quasi-steady or dynamic");
 }
 
-AeroelasticPoint aeroelastic(const WindOperation& operation, const WindPoint& point,
+AeroelasticPoint aeroelastic(const WindOperation& operation, const WindOperatingPoint& point,
                              const AeroelasticOptions& options) {
     if (!point.converged || point.revolution.empty())
         throw InputError(text("operation at ", point.operation.wind, " m/s"), "states of a revolution",
@@ -85,26 +85,30 @@ AeroelasticPoint aeroelastic(const WindOperation& operation, const WindPoint& po
     const Model& model = still.system().model;
     const MachineAir steady = operation.air_at(point.operation);
     const Revolution revolution(point, steady, model);
-    AirLagOptions lags{.airfoils = options.airfoils, .dynamic_wake = options.wake == Wake::dynamic};
-    if (lags.dynamic_wake) lags.wake_time = revolution.wake_time();
-    const bool nothing_lags = !lags.dynamic_wake && lags.airfoils.empty();
-    const double wake_time = lags.wake_time;
+    UnsteadyAeroOptions lags{.airfoils = options.airfoils, .dynamic_inflow = options.wake == Wake::dynamic};
+    if (lags.dynamic_inflow) lags.inflow_time_constant = revolution.inflow_time_constant();
+    const bool nothing_lags = !lags.dynamic_inflow && lags.airfoils.empty();
+    const double inflow_time_constant = lags.inflow_time_constant;
     MachineAir air = nothing_lags ? steady : steady.lagging(std::move(lags));
     if (options.wake == Wake::frozen) air = air.with_frozen_wake(revolution.sections());
     if (options.wind_input) air = air.with_wind_input(wind_input);
-    AeroelasticPoint out{.machine = air.on(still), .air = air, .start = {}, .state_start = {}, .wake_time = wake_time};
+    AeroelasticPoint out{.machine = air.on(still),
+                         .air = air,
+                         .start = {},
+                         .state_start = {},
+                         .inflow_time_constant = inflow_time_constant};
     out.start = point.coefficients.size() > 0 ? point.coefficients : Matrix(point.revolution.front().q);
     if (air.states() > 0) out.state_start = revolution.steady_states(air);
     return out;
 }
 
-solvers::Campbell aeroelastic_campbell(const WindOperation& operation, const std::function<const WindPoint*()>& next,
-                                       std::size_t count, const AeroelasticOptions& air,
-                                       solvers::CampbellOptions options) {
+solvers::Campbell aeroelastic_campbell(const WindOperation& operation,
+                                       const std::function<const WindOperatingPoint*()>& next, std::size_t count,
+                                       const AeroelasticOptions& air, solvers::CampbellOptions options) {
     if (options.method == solvers::CampbellMethod::automatic) options.method = method_for(operation);
     std::deque<AeroelasticPoint> machines;  // that stay where they are
     const auto machine = [&]() -> std::optional<solvers::CampbellCase> {
-        const WindPoint* point = next();
+        const WindOperatingPoint* point = next();
         while (point && !point->converged) point = next();
         if (!point) return std::nullopt;
         const AeroelasticPoint& one = machines.emplace_back(aeroelastic(operation, *point, air));
@@ -118,9 +122,9 @@ solvers::Campbell aeroelastic_campbell(const WindOperation& operation, const std
     return solvers::campbell(machine, count, wind_parameter, options);
 }
 
-solvers::Campbell aeroelastic_campbell(const WindOperation& operation, std::span<const WindPoint> points,
+solvers::Campbell aeroelastic_campbell(const WindOperation& operation, std::span<const WindOperatingPoint> points,
                                        const AeroelasticOptions& air, solvers::CampbellOptions options) {
-    const auto count = static_cast<std::size_t>(std::ranges::count_if(points, &WindPoint::converged));
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(points, &WindOperatingPoint::converged));
     if (count == 0) throw InputError("aeroelastic modes", "operating points that converged", 0, "at least 1");
     const auto next = [&, i = std::size_t(0)]() mutable { return i < points.size() ? &points[i++] : nullptr; };
     return aeroelastic_campbell(operation, next, count, air, std::move(options));

@@ -32,7 +32,7 @@ bool is_isotropic(const TurbineDescription& d, const AssemblyOptions& options) {
 }
 
 // What the next state is looked for from: the coefficients of a revolution.
-Matrix start_from(const WindPoint& point) {
+Matrix start_from(const WindOperatingPoint& point) {
     return point.coefficients.size() > 0 ? point.coefficients : Matrix(point.revolution.front().q);
 }
 
@@ -121,8 +121,8 @@ Matrix WindOperation::with_pitch(Matrix start, double pitch) const {
     return start;
 }
 
-WindPoint WindOperation::solve(const Operation& operation, const Matrix& start) const {
-    WindPoint point;
+WindOperatingPoint WindOperation::solve(const Operation& operation, const Matrix& start) const {
+    WindOperatingPoint point;
     point.operation = operation;
     const MachineAir air = air_at(operation);
     const Turbine windy = air.on(*turbine_);
@@ -166,7 +166,7 @@ WindPoint WindOperation::solve(const Operation& operation, const Matrix& start) 
     return point;
 }
 
-void WindOperation::evaluate(WindPoint& point, const MachineAir& air, const Turbine& windy) const {
+void WindOperation::evaluate(WindOperatingPoint& point, const MachineAir& air, const Turbine& windy) const {
     const Model& model = windy.system().model;
     Workspace workspace(model);
     const double share = 1 / static_cast<double>(point.revolution.size());
@@ -204,8 +204,8 @@ void WindOperation::evaluate(WindPoint& point, const MachineAir& air, const Turb
 }
 
 // From the last state that was found, in one step or in parts.
-WindPoint WindOperation::at(const Operation& operation) {
-    WindPoint point = solve(operation, last_);
+WindOperatingPoint WindOperation::at(const Operation& operation) {
+    WindOperatingPoint point = solve(operation, last_);
     const auto cancelled = [&] { return options_.cancelled && options_.cancelled(); };
     if (!point.converged && last_operation_ && !cancelled()) {
         const Operation from = *last_operation_;
@@ -236,14 +236,14 @@ void WindOperation::keep_rated(const RatedPitch& found) {
 
 // From the pitch that the last two winds point to. Nothing where that is out of range or does not settle at once: the
 // search of a bracket is slower and finds it anyway.
-std::optional<WindPoint> WindOperation::at_rated_by_secants(double wind, const VariableSpeed& law) {
+std::optional<WindOperatingPoint> WindOperation::at_rated_by_secants(double wind, const VariableSpeed& law) {
     if (rated_.empty()) return std::nullopt;
     const RatedPitch &before = rated_.front(), &last = rated_.back();
     const double rise = last.wind == before.wind ? 0 : (last.pitch - before.pitch) / (last.wind - before.wind);
     double pitch = last.pitch + rise * (wind - last.wind), slope = last.slope, pitch_before = pitch, excess_before = 0;
     for (int i = 0; i < max_secants; ++i) {
         if (!(pitch >= law.min_pitch_at(wind) && pitch <= max_pitch)) return std::nullopt;
-        WindPoint point = at({wind, law.rated_speed, pitch});
+        WindOperatingPoint point = at({wind, law.rated_speed, pitch});
         if (!point.converged) return std::nullopt;
         const double excess = point.power / law.rated_power - 1;
         if (i > 0 && pitch != pitch_before) slope = (excess - excess_before) / (pitch - pitch_before);
@@ -260,9 +260,9 @@ std::optional<WindPoint> WindOperation::at_rated_by_secants(double wind, const V
 }
 
 // The power falls as the blades turn to feather: from the pitch before, on either side, until it has changed its sign.
-WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
-    if (std::optional<WindPoint> found = at_rated_by_secants(wind, law)) return *std::move(found);
-    WindPoint point;
+WindOperatingPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
+    if (std::optional<WindOperatingPoint> found = at_rated_by_secants(wind, law)) return *std::move(found);
+    WindOperatingPoint point;
     RatedPitch last{.wind = wind, .pitch = 0, .slope = 0};
     double excess_before = 0;
     const auto excess = [&](double pitch) {
@@ -299,13 +299,13 @@ WindPoint WindOperation::at_rated(double wind, const VariableSpeed& law) {
     return point;
 }
 
-WindPoint WindOperation::at(double wind, const VariableSpeed& law) {
+WindOperatingPoint WindOperation::at(double wind, const VariableSpeed& law) {
     law.check();
     const double speed = law.speed_at(wind, radius());
     const double min = law.min_pitch_at(wind);
     // Beyond rated wind the minimum pitch may be far from where the machine runs.
     const bool beyond = last_operation_ && last_operation_->pitch > min && speed == law.rated_speed;
-    WindPoint point;
+    WindOperatingPoint point;
     if (!beyond) point = at({wind, speed, min});
     if (point.converged && point.power <= law.rated_power) return point;
     try {
@@ -318,8 +318,8 @@ WindPoint WindOperation::at(double wind, const VariableSpeed& law) {
     }
 }
 
-std::vector<WindPoint> WindOperation::over(const std::vector<Operation>& schedule) {
-    std::vector<WindPoint> points;
+std::vector<WindOperatingPoint> WindOperation::over(const std::vector<Operation>& schedule) {
+    std::vector<WindOperatingPoint> points;
     points.reserve(schedule.size());
     for (const Operation& one : schedule) {
         points.push_back(at(one));
@@ -328,8 +328,8 @@ std::vector<WindPoint> WindOperation::over(const std::vector<Operation>& schedul
     return points;
 }
 
-std::vector<WindPoint> WindOperation::over(const std::vector<double>& winds, const VariableSpeed& law) {
-    std::vector<WindPoint> points;
+std::vector<WindOperatingPoint> WindOperation::over(const std::vector<double>& winds, const VariableSpeed& law) {
+    std::vector<WindOperatingPoint> points;
     points.reserve(winds.size());
     for (const double wind : winds) {
         points.push_back(at(wind, law));

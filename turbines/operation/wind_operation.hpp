@@ -2,7 +2,7 @@
 /// Operating points of a machine over the wind speed: how it is run, and its steady state in the wind, bent.
 ///
 ///     turbines::WindOperation machine(description, options, turbines::nrel5mw_aero_blade());
-///     for (const turbines::WindPoint& point : machine.over({4, 6, 8, 10, 12, 16, 20, 24}, law)) ...
+///     for (const turbines::WindOperatingPoint& point : machine.over({4, 6, 8, 10, 12, 16, 20, 24}, law)) ...
 #pragma once
 
 #include "mbs/base/outcome.hpp"
@@ -61,7 +61,7 @@ struct SectionMean {
 
 /// The machine in the wind at one operation. If it did not converge: the operation at which it failed, the rest from
 /// the last iteration, or empty.
-struct WindPoint : Outcome {
+struct WindOperatingPoint : Outcome {
     Operation operation;
     double power = 0, thrust = 0, torque = 0;  ///< of the air on the rotor, mean over a revolution; W, N, N m
     double power_coefficient = 0, thrust_coefficient = 0, tip_speed_ratio = 0;  ///< by the radius at rest
@@ -82,12 +82,12 @@ struct WindOperationOptions {
     /// Number of harmonics of a revolution. A state is constant only where the wind is uniform, the shaft level and
     /// held (a tower that bends tilts it), and there is no gravity.
     int harmonics = 6;
-    /// Number of azimuths of a revolution, for means and WindPoint::revolution. With a tower that changes the wind at
-    /// least MachineAir::min_azimuths(), and the harmonics are balanced at as many.
+    /// Number of azimuths of a revolution, for means and WindOperatingPoint::revolution. With a tower that changes the
+    /// wind at least MachineAir::min_azimuths(), and the harmonics are balanced at as many.
     int azimuths = 24;
     /// Called after every point; false: no further ones.
-    std::function<bool(const WindPoint&)> progress = {};
-    AeroSupport support = {};  ///< air on tower and nacelle; a tower that changes the wind makes states periodic
+    std::function<bool(const WindOperatingPoint&)> progress = {};
+    TowerNacelleAero support = {};  ///< air on tower and nacelle; a tower that changes the wind makes states periodic
     /// Asked often while a point is sought; true: it does not converge, and says so.
     std::function<bool()> cancelled = {};
 };
@@ -102,11 +102,11 @@ public:
                   WindOperationOptions wind = {});
 
     /// Starts from the last state that was found. What does not converge is approached from there in up to 2^5 parts.
-    WindPoint at(const Operation& operation);
-    WindPoint at(double wind, const VariableSpeed& law);
+    WindOperatingPoint at(const Operation& operation);
+    WindOperatingPoint at(double wind, const VariableSpeed& law);
     /// One after the other; what fails is among the results, and the others go on from the last that was found.
-    std::vector<WindPoint> over(const std::vector<Operation>& schedule);
-    std::vector<WindPoint> over(const std::vector<double>& winds, const VariableSpeed& law);
+    std::vector<WindOperatingPoint> over(const std::vector<Operation>& schedule);
+    std::vector<WindOperatingPoint> over(const std::vector<double>& winds, const VariableSpeed& law);
 
     /// The machine of a point, with the air, for channels and linearisation.
     Turbine machine(const Operation& operation) const;
@@ -118,10 +118,10 @@ public:
     bool is_constant() const;  ///< nothing depends on the azimuth
 
 private:
-    WindPoint solve(const Operation& operation, const Matrix& start) const;
-    WindPoint at_rated(double wind, const VariableSpeed& law);
-    std::optional<WindPoint> at_rated_by_secants(double wind, const VariableSpeed& law);
-    void evaluate(WindPoint& point, const MachineAir& air, const Turbine& windy) const;
+    WindOperatingPoint solve(const Operation& operation, const Matrix& start) const;
+    WindOperatingPoint at_rated(double wind, const VariableSpeed& law);
+    std::optional<WindOperatingPoint> at_rated_by_secants(double wind, const VariableSpeed& law);
+    void evaluate(WindOperatingPoint& point, const MachineAir& air, const Turbine& windy) const;
     Matrix with_pitch(Matrix start, double pitch) const;
 
     TurbineDescription description_;

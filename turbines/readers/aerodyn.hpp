@@ -20,9 +20,9 @@ struct AeroDynFile {
     std::vector<FileNote> notes;
     std::string source;  ///< text of the files but the polars
     /// Tower and nacelle; nothing where the file switches them off. Heights of the tower are those above the ground or
-    /// the still water: AeroTower::foot is for the caller to set (TurbineFile::tower_foot).
-    AeroSupport support = {};
-    /// Unsteady airfoils in the place of the polars of the blade, one for each: AirLagOptions::airfoils. Those of
+    /// the still water: AeroTower::foot is for the caller to set (TurbineFile::tower_base).
+    TowerNacelleAero support = {};
+    /// Unsteady airfoils in the place of the polars of the blade, one for each: UnsteadyAeroOptions::airfoils. Those of
     /// cylinders and of sections out of UAStartRad ... UAEndRad lag in nothing.
     std::vector<UnsteadyAirfoil> airfoils = {};
     bool unsteady = false;  ///< do the files ask for them (UA_Mod, AFAeroMod)?

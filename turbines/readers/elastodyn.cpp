@@ -90,7 +90,7 @@ private:
                                        "description here"));
         if (base != 0) file_.note(keyword, "the origin of the ground axes is the foot of the tower here");
         d_.missing_foundation.where = text(base, " m above the ground or the still water (", keyword, ")");
-        out_.tower_foot = base;
+        out_.tower_base = base;
         const std::filesystem::path path = file_.path("TwrFile");
         ElastoDynBeam tower = file_.follow("TwrFile", [&] { return elastodyn_tower(path, top - base); });
         d_.tower.line = tower.line;
@@ -151,7 +151,7 @@ private:
             t.main_shaft = rigid_joint;
         else
             file_.positive("DTTorSpr");
-        if (!file_.flag("GenDOF")) t.spin = CoordinateRole::driven;
+        if (!file_.flag("GenDOF")) t.spin = CoordinateRole::prescribed;
         file_.left_out_unless("GBoxEff", 100, "losses of the gearbox: not part of the model");
     }
 
@@ -240,7 +240,7 @@ private:
         note_length(other.beam, length);
         set_blade(blade, other.beam, other.file);
         if (!d_.blade.pitch.is_rigid())
-            blade.pitch = other.pitch.is_rigid() ? driven_joint : other.pitch;
+            blade.pitch = other.pitch.is_rigid() ? prescribed_joint : other.pitch;
         else if (!other.pitch.is_rigid())
             out_.notes.push_back({other.file, 0, "UsePitchAct", "True", "rigid: the first blade has no pitch drive"});
     }

@@ -1,4 +1,5 @@
-/// @file Structure and rotor speed of ServoDyn's files.
+/// @file
+/// Structure and rotor speed of ServoDyn's files.
 #pragma once
 
 #include "turbines/readers/turbine_file.hpp"

@@ -33,7 +33,7 @@ std::size_t FileNote::entries() const {
 }
 
 void set_dofs(const FileDofs& dofs, TurbineDescription& description) {
-    description.drive_train.spin = dofs.generator ? CoordinateRole::free : CoordinateRole::driven;
+    description.drive_train.spin = dofs.generator ? CoordinateRole::free : CoordinateRole::prescribed;
     TowerDescription& tower = description.tower;
     tower.rigid = !dofs.tower_fore_aft && !dofs.tower_side_side;
     tower.locked_fore_aft = !tower.rigid && !dofs.tower_fore_aft;

@@ -1,4 +1,5 @@
-/// @file Results of the readers of model files: a description, and a note on everything in the files that it does not
+/// @file
+/// Results of the readers of model files: a description, and a note on everything in the files that it does not
 /// hold.
 #pragma once
 
@@ -140,7 +141,7 @@ struct TurbineFile {
     std::optional<ModelRun> run = std::nullopt;
     /// Height of the tower base above the ground or the still water, m, as the files count heights; none: they do not
     /// say.
-    std::optional<double> tower_foot = std::nullopt;
+    std::optional<double> tower_base = std::nullopt;
     double gravity = units::standard_gravity;  ///< m/s^2, downward
 };
 

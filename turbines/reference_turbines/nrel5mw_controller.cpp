@@ -9,8 +9,8 @@ VariableSpeedParameters nrel5mw_controller() {
     p.name = "baseline controller of the NREL 5 MW machine";
     p.period = 0.0125;
     p.corner_frequency = 2 * pi * 0.25;
-    p.cut_in = 670 * units::rpm;
-    p.optimum_from = 871 * units::rpm;
+    p.region_1_5_speed = 670 * units::rpm;
+    p.region_2_speed = 871 * units::rpm;
     p.rated_speed = 0.99 * 1173.7 * units::rpm;
     p.optimal_gain = 0.0255764 / (units::rpm * units::rpm);
     p.slip = 0.1;

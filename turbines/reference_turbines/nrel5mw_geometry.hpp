@@ -1,4 +1,5 @@
-/// @file Positions of the parts of the NREL 5 MW machine: turbines/data/nrel5mw_turbine.csv.
+/// @file
+/// Positions of the parts of the NREL 5 MW machine: turbines/data/nrel5mw_turbine.csv.
 #pragma once
 
 namespace cardan::turbines {

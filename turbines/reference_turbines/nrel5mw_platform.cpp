@@ -45,15 +45,15 @@ TurbineDescription nrel5mw_platform_description(const Nrel5mwBlade& blade, const
     d.tower.line = rigid_massless_line(geometry.tower_height);
     d.tower.rigid = true;
     d.platform = driven_platform();
-    d.yaw.rotation = driven_joint;
+    d.yaw.rotation = prescribed_joint;
     d.nacelle.shaft_height = geometry.shaft_above_tower;
     d.nacelle.tilt = geometry.tilt;
     d.nacelle.overhang = geometry.overhang;
     d.drive_train.main_shaft = rigid_joint;
-    d.drive_train.spin = CoordinateRole::driven;
+    d.drive_train.spin = CoordinateRole::prescribed;
     d.hub.radius = blade.root_radius;
     d.blade.line = blade.line;
-    d.blade.pitch = driven_joint;
+    d.blade.pitch = prescribed_joint;
     d.blade.cone = geometry.cone;
     d.blade.damping = options.elements.damping;
     return d;

@@ -59,18 +59,18 @@ PlatformDescription describe_spar(const CsvQuantities& q) {
     p.inertia.com.z() = -q.number("platform_cm_below_still_water", "m");
     const double lateral = q.number("platform_roll_and_pitch_inertia", "kg m^2");
     p.inertia.J = Vec3(lateral, lateral, q.number("platform_yaw_inertia", "kg m^2")).asDiagonal();
-    p.tower_foot.z() = q.number("tower_foot_above_still_water", "m");
+    p.tower_base.z() = q.number("tower_foot_above_still_water", "m");
     p.added_mass =
         strip_theory_added_mass(stations, q.number("added_mass_coefficient", "-"),
                                 q.number("end_added_mass_coefficient", "-"), q.number("water_density", "kg/m^3"));
     check_volume(q, stations);
-    p.hydrostatic =
+    p.hydrostatic_stiffness =
         diagonal(0, q.number("hydrostatic_heave", "N/m"), q.number("hydrostatic_roll_and_pitch", "N m/rad"), 0);
-    p.mooring = mooring(q);
+    p.mooring_stiffness = mooring(q);
     p.damping = diagonal(q.number("damping_surge_and_sway", "N s/m"), q.number("damping_heave", "N s/m"), 0,
                          q.number("damping_yaw", "N m s/rad"));
     p.buoyancy = q.number("buoyancy", "N");
-    p.mooring_pull.z() = q.number("mooring_pull_heave", "N");
+    p.mooring_preload.z() = q.number("mooring_pull_heave", "N");
     p.coordinates.role = CoordinateRole::free;
     return p;
 }

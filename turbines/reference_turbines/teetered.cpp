@@ -88,7 +88,7 @@ TurbineDescription describe(const CsvQuantities& q) {
     d.nacelle.tilt = q.number("tilt", "deg") * units::degree;
     d.nacelle.overhang = -q.number("yaw_axis_to_teeter_axis", "m");
     d.drive_train.main_shaft = rigid_joint;
-    d.drive_train.spin = CoordinateRole::driven;  // at constant speed
+    d.drive_train.spin = CoordinateRole::prescribed;  // at constant speed
     d.drive_train.shaft =
         on_shaft(q, "shaft_mass", "shaft_centre_from_yaw_axis", Vec3::UnitX(), {shaft[0], shaft[1], shaft[1]});
     d.hub = describe_hub(q);

@@ -30,11 +30,11 @@ Mat6 matrix(const YamlNode& node, bool or_infinite) {
 }
 
 void hold(PlatformDescription& foundation, Eigen::Index i) {
-    for (Mat6* M : {&foundation.hydrostatic, &foundation.added_mass, &foundation.damping}) {
+    for (Mat6* M : {&foundation.hydrostatic_stiffness, &foundation.added_mass, &foundation.damping}) {
         M->row(i).setZero();
         M->col(i).setZero();
     }
-    entry(foundation.coordinates.roles, i) = CoordinateRole::driven;
+    entry(foundation.coordinates.roles, i) = CoordinateRole::prescribed;
 }
 
 // Every direction that is not held has a spring, and the springs hold the tower up.
@@ -43,11 +43,11 @@ void check_stiffness(const YamlNode& node, const PlatformDescription& foundation
     for (Eigen::Index i = 0; i < 6; ++i) {
         if (entry(foundation.coordinates.roles, i)) continue;
         free.push_back(i);
-        if (const double k = foundation.hydrostatic(i, i); !(k > 0))
+        if (const double k = foundation.hydrostatic_stiffness(i, i); !(k > 0))
             node.fail(text("entry ", i + 1, ", ", i + 1, " = ", k, "; allowed: > 0, or .inf: held"));
     }
     if (free.empty()) return;
-    const Matrix K = foundation.hydrostatic(free, free);
+    const Matrix K = foundation.hydrostatic_stiffness(free, free);
     const Vector scale = K.diagonal().cwiseSqrt().cwiseInverse();
     const Matrix unit = scale.asDiagonal() * K * scale.asDiagonal();
     if (const double lowest = Eigen::SelfAdjointEigenSolver<Matrix>(unit, Eigen::EigenvaluesOnly).eigenvalues()(0);
@@ -66,11 +66,11 @@ PlatformDescription parse_foundation(const std::string& text, const std::string&
     foundation.name = "foundation";
     foundation.source = text;
     foundation.coordinates.role = CoordinateRole::free;
-    foundation.hydrostatic = matrix(root["stiffness"], true);
+    foundation.hydrostatic_stiffness = matrix(root["stiffness"], true);
     if (const auto mass = root.find("mass")) foundation.added_mass = matrix(*mass, false);
     if (const auto damping = root.find("damping")) foundation.damping = matrix(*damping, false);
     for (Eigen::Index i = 0; i < 6; ++i)
-        if (std::isinf(foundation.hydrostatic(i, i))) hold(foundation, i);
+        if (std::isinf(foundation.hydrostatic_stiffness(i, i))) hold(foundation, i);
     check_stiffness(root["stiffness"], foundation);
     foundation.check(file);
     return foundation;

@@ -1,4 +1,5 @@
-/// @file Foundations of towers, as 6 x 6 matrices at the tower base.
+/// @file
+/// Foundations of towers, as 6 x 6 matrices at the tower base.
 #pragma once
 
 #include "turbines/model/platform.hpp"

@@ -1,4 +1,5 @@
-/// @file Additions to a model beside its file.
+/// @file
+/// Additions to a model beside its file.
 #pragma once
 
 #include <string>

@@ -144,7 +144,7 @@ private:
         if (!file_.find({"components.tower"})) return lack_component(Part::tower, "the tower", "components.tower");
         try {
             d_.tower.line = beam_line(windio_tower(file_));
-            out_.tower_foot = tower_heights().front();
+            out_.tower_base = tower_heights().front();
         } catch (const InputError& error) {
             file_.root().fail(error.what());
         }

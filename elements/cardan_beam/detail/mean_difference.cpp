@@ -12,8 +12,8 @@ using Samples = PlanarElement::Samples;
 // I4, I1). A point mass on a hinge belongs to either neighbour, so that masses come last.
 using Targets = Eigen::Vector4d;
 
-// Share of the linear term of each shape in the inertia about its hinge. Any share is of fourth order; 1/3 is best on
-// blades with few elements.
+// EnergyFraction of the linear term of each shape in the inertia about its hinge. Any share is of fourth order; 1/3 is
+// best on blades with few elements.
 constexpr double linear_share = 1. / 3;
 
 // The middle body: mass, first and second moment about the middle of the hinges.

@@ -9,7 +9,7 @@
 #include "mbs/base/outcome.hpp"
 #include "mbs/kernels/kinematics.hpp"
 #include "solvers/equilibrium/buckling.hpp"
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "solvers/linear/modes.hpp"
 
 #include <cmath>
@@ -140,9 +140,9 @@ Vec3 chain_tip(const Method& method, const BeamLine& line, int elements, const T
     const CardanBeam beam = add_cardan_beam(tree, forces, Tree::base(), line, "beam", {"beam"}, options);
     forces.add_wrench({"load", beam.tip(), {load.force, load.moment}, WrenchAxes::base});
     const System system(tree, forces);
-    solvers::LoadPathOptions path_options;
+    solvers::EquilibriumPathOptions path_options;
     path_options.steps = load.steps;
-    const solvers::LoadPath path = solvers::load_path(system, path_options);
+    const solvers::EquilibriumPath path = solvers::equilibrium_path(system, path_options);
     require_result(path);
     Workspace workspace(system.model);
     return pose(kinematics(system.model, path.points.back().at.q, workspace), beam.tip()).p;

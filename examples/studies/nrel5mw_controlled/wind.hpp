@@ -1,4 +1,5 @@
-/// @file Effect of the wind on the rotor of the NREL 5 MW machine, without an aerodynamic model: a torque that depends
+/// @file
+/// Effect of the wind on the rotor of the NREL 5 MW machine, without an aerodynamic model: a torque that depends
 /// on wind speed and pitch.
 #pragma once
 

@@ -227,7 +227,7 @@ void draw(const Campbell& free, const Campbell& held, const ModesOptions& option
 int free_modes(const MachineOptions& machine, const ModesOptions& options, const std::string& prefix) {
     const std::vector<double> speeds = program::rotor_speeds(options.rpm);
     const turbines::Turbine floating = on_spar(machine, CoordinateRole::free),
-                            still = on_spar(machine, CoordinateRole::driven), ground = on_land(machine);
+                            still = on_spar(machine, CoordinateRole::prescribed), ground = on_land(machine);
     if (options.summary) std::cout << floating.summary() << "\n";
     for (const std::string& warning : floating.warnings()) std::cerr << "warning: " << warning << "\n";
     program::check_outputs(prefix, {".h5", ".csv", ".svg", ".png", "_families.png", "_difference.png"});

@@ -271,7 +271,7 @@ int motion(const MachineOptions& machine, const MotionOptions& options, const st
     }
     program::check_outputs(prefix, {".csv"});
     for (const Case& one : all) program::check_outputs(text(prefix, "_", one.name), {".h5", ".png"});
-    const turbines::Turbine turbine = on_spar(machine, CoordinateRole::driven);
+    const turbines::Turbine turbine = on_spar(machine, CoordinateRole::prescribed);
     const DynamicState start = equilibrium(turbine, options.rpm * units::rpm);
     const Study study{turbine, start, options, options.settle, options.settle + options.periods * longest};
     const std::string path = prefix + ".csv";

@@ -1,4 +1,5 @@
-/// @file Files that a run leaves behind: channels that are recorded, the table of the last period, the pictures.
+/// @file
+/// Files that a run leaves behind: channels that are recorded, the table of the last period, the pictures.
 #pragma once
 
 #include "solvers/time/recorder.hpp"

@@ -145,7 +145,7 @@ private:
         std::set<std::string> parts;
         for (const Tree::Body& b : tree_.bodies()) {
             const CoordinateInfo& c = b.spec.coordinate;
-            if (c.role == CoordinateRole::driven)
+            if (c.role == CoordinateRole::prescribed)
                 out_.losses.push_back(text("coordinate '", c.name, "' is driven; it becomes a free one"));
             if (!c.part.empty()) parts.insert(c.part);
             const auto data = data_.find(c.name);

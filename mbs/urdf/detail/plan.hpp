@@ -1,4 +1,5 @@
-/// @file Links and joints that a tree becomes in URDF.
+/// @file
+/// Links and joints that a tree becomes in URDF.
 #pragma once
 
 #include "mbs/urdf/urdf.hpp"

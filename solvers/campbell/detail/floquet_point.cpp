@@ -23,8 +23,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Share of the energy that a vibration named after its springs has in them: half where no other stiffness acts, less
-// where the centrifugal force holds the blades.
+// EnergyFraction of the energy that a vibration named after its springs has in them: half where no other stiffness
+// acts, less where the centrifugal force holds the blades.
 constexpr double elastic_limit = 0.05;
 // Asymmetry of the blades relative to the diagonals; more is not rounding.
 constexpr double small_difference = 1e-4;
@@ -334,7 +334,7 @@ CampbellMode PeriodicPointSolver::make(FloquetMode&& found) const {
     const std::vector<Mode> harmonics = harmonics_of(mode);
     out.shares = energy_shares()->shares(harmonics, 2 * pi / mode.period);
     if (rigid)
-        for (Share& share : out.shares) share = Share{};
+        for (EnergyFraction& share : out.shares) share = EnergyFraction{};
     Vector elastic = Vector::Zero(current_.M.rows()), kinetic = elastic;
     for (const Mode& one : harmonics) {
         const ComplexVector force = current_.K_elastic * one.shape;

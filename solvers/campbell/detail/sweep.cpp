@@ -242,7 +242,7 @@ PeriodicMac Sweep::likeness_of_periodic(const PointSolver& solver, const Campbel
 }
 
 // Another machine may have its component modes in another order.
-void Sweep::align(const EnergyShares& own, CampbellPoint& point) {
+void Sweep::align(const EnergyFractions& own, CampbellPoint& point) {
     if (!first_) first_ = &own;
     if (first_ == &own) return;
     const std::vector<Component>&wanted = first_->components(), &there = own.components();
@@ -251,7 +251,7 @@ void Sweep::align(const EnergyShares& own, CampbellPoint& point) {
         throw InputError(diagram_.machine, text("component modes at point ", diagram_.points.size() + 1), there.size(),
                          text(wanted.size(), ", of every part as many as at the first point"));
     for (CampbellMode& m : point.modes) {
-        std::vector<Share> shares;
+        std::vector<EnergyFraction> shares;
         for (std::size_t i = 0; i < found->size(); ++i) {
             shares.push_back(m.shares[(*found)[i]]);
             shares.back().component = static_cast<int>(i);
@@ -261,7 +261,7 @@ void Sweep::align(const EnergyShares& own, CampbellPoint& point) {
 }
 
 void Sweep::set_branches(const Solvers& solvers, BranchesOf of) {
-    const EnergyShares* energy_shares = solvers[0]->energy_shares();
+    const EnergyFractions* energy_shares = solvers[0]->energy_shares();
     if (!energy_shares) return;
     diagram_.components = energy_shares->components();
     const bool whirl = options_.method != CampbellMethod::frozen_azimuth &&

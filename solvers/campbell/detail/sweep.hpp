@@ -47,7 +47,7 @@ public:
 
 private:
     bool is_cancelled();
-    void align(const EnergyShares& own, CampbellPoint& point);
+    void align(const EnergyFractions& own, CampbellPoint& point);
     PeriodicMac likeness_of_periodic(const PointSolver& solver, const CampbellPoint& point) const;
     void set_branches(const Solvers& solvers, BranchesOf of);
     void set_warning(const RotorMap& rotor, const Solvers& solvers);
@@ -58,8 +58,8 @@ private:
     Campbell diagram_;
     std::vector<NamedState> states_;
     std::vector<FrameId> frames_;
-    std::vector<const System*> systems_;   // by point, for shapes
-    const EnergyShares* first_ = nullptr;  // of the first machine
+    std::vector<const System*> systems_;      // by point, for shapes
+    const EnergyFractions* first_ = nullptr;  // of the first machine
     Tracker tracker_;
     std::optional<NeighbourNames> neighbour_;
     std::string instability_;

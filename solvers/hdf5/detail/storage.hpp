@@ -1,4 +1,5 @@
-/// @file Parts of the C library that the HDF5 file layer needs: owned identifiers, the error stack, handling of a full
+/// @file
+/// Parts of the C library that the HDF5 file layer needs: owned identifiers, the error stack, handling of a full
 /// disk. Internal: includes hdf5.h, not for users of the library.
 #pragma once
 

@@ -1,4 +1,5 @@
-/// @file Number of the roots of a system with local states that grow. Internal to solvers: not installed.
+/// @file
+/// Number of the roots of a system with local states that grow. Internal to solvers: not installed.
 #pragma once
 
 #include "solvers/linear/detail/shifted_states.hpp"

@@ -1,4 +1,5 @@
-/// @file Common parts of the solvers of second-order eigenvalue problems: scaling, shift, checks.
+/// @file
+/// Common parts of the solvers of second-order eigenvalue problems: scaling, shift, checks.
 #pragma once
 
 #include "solvers/linear/linearise.hpp"

@@ -100,7 +100,7 @@ Layout::Layout(const System& system, const RotorMap& rotor, const std::vector<Li
     const Moved moved(inputs, table.size());
     for (int i = 0; i < table.size(); ++i) {
         const bool states = Moved::contains(moved.with_states, i);
-        const bool held = states || Moved::contains(moved.split, i) || table[i].role == CoordinateRole::driven ||
+        const bool held = states || Moved::contains(moved.split, i) || table[i].role == CoordinateRole::prescribed ||
                           (i == rotor.spin && options.spin == RotorSpin::prescribed);
         if (states || !held) coordinates.push_back(i);
         (held ? driven : unknowns).push_back(i);

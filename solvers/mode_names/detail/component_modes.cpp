@@ -73,7 +73,7 @@ WhirlShare sum_of(const WhirlShare& a, WhirlShare b, bool reversed) {
 
 }  // namespace
 
-void add(Share& sum, const Share& one, bool reversed) {
+void add(EnergyFraction& sum, const EnergyFraction& one, bool reversed) {
     sum.collective += one.collective;
     sum.differential += one.differential;
     const WhirlShare first = sum_of({sum.cosine, sum.sine, sum.whirl}, {one.cosine, one.sine, one.whirl}, reversed);

@@ -31,6 +31,6 @@ ComponentModes component_modes(const Matrix& K, const Matrix& M, const std::stri
 
 /// sum += one.
 /// @param reversed  of a negative frequency, which reverses the sense of whirl
-void add(Share& sum, const Share& one, bool reversed);
+void add(EnergyFraction& sum, const EnergyFraction& one, bool reversed);
 
 }  // namespace cardan::solvers

@@ -19,7 +19,7 @@ constexpr double rival_share = 0.8;
 constexpr double certain_share = 0.75;
 
 // @param unequal_blades  their number, if one of them may move alone
-std::vector<Label> component_labels(const EnergyShares& energy_shares, bool whirl, int unequal_blades) {
+std::vector<Label> component_labels(const EnergyFractions& energy_shares, bool whirl, int unequal_blades) {
     std::vector<Label> labels;
     const auto& components = energy_shares.components();
     const RotorPattern first = whirl ? RotorPattern::backward : RotorPattern::cosine,
@@ -77,7 +77,7 @@ double alone(const CampbellMode& mode, int blade, double least) {
 double own_pattern(const CampbellMode& mode, const Label& label) {
     if (label.row >= 0 || label.pattern == RotorPattern::none) return 1;
     if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic, sure_blade);
-    const Share& share = entry(mode.shares, label.component);
+    const EnergyFraction& share = entry(mode.shares, label.component);
     const double total = share.total();
     return total > 0 ? share.of(label.pattern, label.harmonic) / total : 1;
 }
@@ -125,7 +125,7 @@ std::string motion_name(const std::string& row, const std::string& kind, const s
     return text(row, " (", number, number.empty() ? "" : " ", kind, tendency.empty() ? "" : " and ", tendency, ")");
 }
 
-ModeLabels::ModeLabels(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
+ModeLabels::ModeLabels(const std::vector<CampbellPoint>& points, const EnergyFractions& energy_shares,
                        const std::vector<std::string>& rows, bool whirl)
     : energy_shares_(energy_shares),
       rows_(rows),
@@ -133,7 +133,7 @@ ModeLabels::ModeLabels(const std::vector<CampbellPoint>& points, const EnergySha
 
 double ModeLabels::part(const CampbellMode& mode, const Label& label) {
     if (mode.row >= 0 || label.row >= 0) return mode.row == label.row ? 1 : 0;
-    const Share& share = entry(mode.shares, label.component);
+    const EnergyFraction& share = entry(mode.shares, label.component);
     if (label.pattern == RotorPattern::single) return alone(mode, label.harmonic, label.least) * share.total();
     return share.of(label.pattern, label.harmonic);
 }
@@ -170,7 +170,7 @@ std::string ModeLabels::doubt(double rotor_speed, const CampbellMode& mode, cons
     if (best.component != label.component && held(rotor_speed, mode, best) > own) return "mostly " + name(best);
     const double of_component = entry(mode.shares, label.component).total();
     if (of_component < sure_component) return per_cent(of_component) + " of the elastic energy";
-    for (const Share& other : mode.shares)
+    for (const EnergyFraction& other : mode.shares)
         if (other.component != label.component && other.total() >= rival_share * of_component)
             return text(per_cent(of_component), " of the elastic energy, another part ", per_cent(other.total()));
     const bool whirls = label.pattern == RotorPattern::backward || label.pattern == RotorPattern::forward;

@@ -26,13 +26,14 @@ public:
     /// @param energy_shares  kept as a reference, as `rows`
     /// @param rows   names of the rows
     /// @param whirl  the rotor's pairs are backward and forward, else cosine and sine
-    ModeLabels(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
+    ModeLabels(const std::vector<CampbellPoint>& points, const EnergyFractions& energy_shares,
                const std::vector<std::string>& rows, bool whirl);
 
     const std::vector<Label>& all() const { return labels_; }
     void add_row(int row) { labels_.push_back({.row = row}); }
 
-    /// Share of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward get equal shares.
+    /// EnergyFraction of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward get equal
+    /// shares.
     static double part(const CampbellMode& mode, const Label& label);
     /// Likewise, but at standstill what is under the label of a whirl holds the energy of its pair.
     static double held(double rotor_speed, const CampbellMode& mode, const Label& label);
@@ -51,7 +52,7 @@ public:
     std::string name(const Label& label) const;
 
 private:
-    const EnergyShares& energy_shares_;
+    const EnergyFractions& energy_shares_;
     const std::vector<std::string>& rows_;
     std::vector<Label> labels_;
 };

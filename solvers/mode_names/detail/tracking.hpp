@@ -48,7 +48,7 @@ public:
     /// @param states  in the order of Mode::states
     /// @param whirl  name the rotor's pairs backward and forward, else cosine and sine
     /// @param neighbour  with all points; null: none
-    std::vector<Branch> branches(const std::vector<CampbellPoint>& points, const EnergyShares& energy_shares,
+    std::vector<Branch> branches(const std::vector<CampbellPoint>& points, const EnergyFractions& energy_shares,
                                  const std::vector<std::string>& rows, const std::vector<NamedState>& states,
                                  bool whirl, BranchesOf of, NeighbourNames* neighbour = nullptr) const;
 

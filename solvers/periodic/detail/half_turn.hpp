@@ -1,4 +1,5 @@
-/// @file Unknowns of a periodic steady state that two alike blades leave.
+/// @file
+/// Unknowns of a periodic steady state that two alike blades leave.
 #pragma once
 
 #include "solvers/periodic/detail/rotor_equations.hpp"

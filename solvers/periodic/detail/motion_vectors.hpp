@@ -1,4 +1,5 @@
-/// @file Properties of one motion by its vectors at some times of the period.
+/// @file
+/// Properties of one motion by its vectors at some times of the period.
 #pragma once
 
 #include "solvers/algebra/product_eigen.hpp"

@@ -1,4 +1,5 @@
-/// @file Motions that the equations of a periodic steady state leave open. Internal to solvers: not installed.
+/// @file
+/// Motions that the equations of a periodic steady state leave open. Internal to solvers: not installed.
 #pragma once
 
 #include "solvers/periodic/detail/rotor_equations.hpp"

@@ -13,7 +13,7 @@ namespace {
 // twists a wing also bends it, but the bending does not act back and is not why it diverges.
 class StaticParts {
 public:
-    StaticParts(const EnergyShares& components, const SecondOrderSystem& system, const Vector& x, const Vector& y)
+    StaticParts(const EnergyFractions& components, const SecondOrderSystem& system, const Vector& x, const Vector& y)
         : components_(components) {
         const auto square = [&](const Vector& v) { return v.dot(system.K_elastic * v); };
         // y as large as x, and along it; of a load that no spring carries only x is left.
@@ -55,8 +55,8 @@ private:
         name_ = components_.name(static_cast<int>(i), pattern, harmonic);
     }
 
-    const EnergyShares& components_;
-    std::vector<Share> sum_, difference_;
+    const EnergyFractions& components_;
+    std::vector<EnergyFraction> sum_, difference_;
     double of_sum_ = 0, of_difference_ = 0, most_ = 0;  // twice the energies
     std::string name_;
 };

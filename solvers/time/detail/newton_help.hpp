@@ -1,4 +1,5 @@
-/// @file Savings of iterations and Jacobians in implicit Runge-Kutta methods. For sources only.
+/// @file
+/// Savings of iterations and Jacobians in implicit Runge-Kutta methods. For sources only.
 #pragma once
 
 #include "mbs/base/types.hpp"

@@ -1,4 +1,5 @@
-/// @file Interface that the integrator requires of an integration method.
+/// @file
+/// Interface that the integrator requires of an integration method.
 #pragma once
 
 #include "solvers/time/integrate.hpp"

@@ -18,7 +18,7 @@ struct LaggingCase {
     Annulus annulus;
     SectionMotion motion;
     SectionStates s;
-    SectionLags lags;
+    UnsteadySection lags;
 
     Response response(const RotorAirOptions& options) const {
         const LaggingAir air = lagging_air(annulus, motion, s, options, 1.2, lags);

@@ -2,7 +2,7 @@
 // mean-difference partition. "Discrete" values: docs/partitions.md, another implementation of the same formulas. Exact
 // ones: oracles.
 #include "solvers/equilibrium/buckling.hpp"
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "tests/elements/cardan_beam/rotating_cantilever.hpp"
 #include "tests/oracles/column_buckling.hpp"
 #include "tests/oracles/elastica.hpp"
@@ -155,7 +155,7 @@ TEST_CASE("mean differences: fourth order of large deflection under a tip force"
                                                 {"beam"}, with(elements, partition));
         forces.add_wrench({"load", beam.tip(), {{0, 0, 5}, Vec3::Zero()}, WrenchAxes::base});
         const System system(tree, forces);
-        const solvers::LoadPath path = solvers::load_path(system, {});
+        const solvers::EquilibriumPath path = solvers::equilibrium_path(system, {});
         REQUIRE(path.converged);
         Workspace workspace(system.model);
         return pose(kinematics(system.model, path.points.back().at.q, workspace), beam.tip()).p;

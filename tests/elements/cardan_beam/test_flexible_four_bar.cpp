@@ -47,7 +47,7 @@ struct FourBarMachine {
         const auto bar = [&](const char* name, FrameId root, double length, const EngineeringSection& s) {
             return add_cardan_beam(tree, forces, root, uniform_beam(length, s), name, {name}, options).tip();
         };
-        const Link crank = add_joint(tree, {.name = "crank", .role = CoordinateRole::driven});
+        const Link crank = add_joint(tree, {.name = "crank", .role = CoordinateRole::prescribed});
         const FrameId B = bar("AB", crank.axes, crank_length, thick_bar);
         const Link coupler = add_joint(tree, {.name = "coupler", .inboard = B});
         const FrameId C = bar("BC", coupler.axes, coupler_length, thick_bar);

@@ -33,7 +33,7 @@ struct FlexibleSliderCrank {
         options.locked_y = true;
         Tree tree;
         ForceSet forces;
-        const Bar crank = add_bar(tree, "crank", Tree::base(), r, bar_along_x(0.36, r), CoordinateRole::driven);
+        const Bar crank = add_bar(tree, "crank", Tree::base(), r, bar_along_x(0.36, r), CoordinateRole::prescribed);
         const Link rod = add_joint(tree, {.name = "rod", .inboard = crank.end});
         const CardanBeam beam =
             add_cardan_beam(tree, forces, rod.axes, uniform_beam(l, section), "beam", {"rod"}, options);

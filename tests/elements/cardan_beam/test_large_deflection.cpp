@@ -1,7 +1,7 @@
 // Large deflections of a cantilever of cardanic elements, L = 1, EI = 1, by load stepping. "Discrete" values were
 // computed by an independent implementation of the same formulas (docs/verification.md), exact ones are elastica.
 #include "mbs/kernels/kinematics.hpp"
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/elastica.hpp"
 #include "tests/support/catch.hpp"
@@ -24,9 +24,9 @@ Pose<double> bent_tip(const Wrench& load, WrenchAxes axes, const CardanBeamOptio
         add_cardan_beam(tree, forces, Tree::base(), uniform_beam(1, slender(1, 1)), "beam", {"beam"}, options);
     forces.add_wrench({"load", beam.tip(), load, axes});
     const System system(tree, forces);
-    LoadPathOptions path_options;
+    EquilibriumPathOptions path_options;
     path_options.steps = steps;
-    const LoadPath path = load_path(system, path_options);
+    const EquilibriumPath path = equilibrium_path(system, path_options);
     INFO(path.message);
     REQUIRE(path.converged);
     if (axes == WrenchAxes::base) CHECK(path.points.back().negative_pivots == 0);

@@ -1,5 +1,5 @@
 // Section loads of strongly bent and of spinning beams against a Cosserat rod (oracles/cosserat_rod) and statics.
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "tests/elements/cardan_beam/loaded_beam.hpp"
 #include "tests/elements/cardan_beam/spinning_rods.hpp"
 
@@ -40,7 +40,7 @@ Loaded loaded(const Case& c, int elements, double delta, const HingeLaw& law = {
     Loaded b = clamped(line_of(c.rod), options);
     b.forces.add_wrench({"tip", b.beam.tip(), {c.force, Vec3::Zero()}, WrenchAxes::base});
     b.system.emplace(b.tree, b.forces);
-    const solvers::LoadPath path = solvers::load_path(*b.system, {.steps = 4});
+    const solvers::EquilibriumPath path = solvers::equilibrium_path(*b.system, {.steps = 4});
     REQUIRE(path.converged);
     b.at = path.points.back().at;
     return b;

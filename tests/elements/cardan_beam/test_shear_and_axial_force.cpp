@@ -1,6 +1,6 @@
 // Beams flexible in shear under axial force: the springs measure the elongation without the shortening by shear.
 #include "solvers/equilibrium/buckling.hpp"
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/elements/cardan_beam/spinning_rods.hpp"
 #include "tests/support/catch.hpp"
@@ -84,11 +84,11 @@ TEST_CASE("column flexible in shear: Haringx' critical load, with order 2 for al
     CHECK(discrete(20, 16) == Approx(2.22039).margin(2e-5));
     CHECK(discrete(10, 16) == Approx(2.04770).margin(5e-5));
     // The scan over load factors meets it, with the equilibrium compressed by 2e-6 of its length.
-    solvers::LoadPathOptions path;
+    solvers::EquilibriumPathOptions path;
     path.factors = {0, 2, 2.5};
     path.stability_tolerance = 1e-7;
     const auto found =
-        solvers::load_path(column(uniform_beam(1, soft(20)), extensible(8, Partition::segment_masses)), path);
+        solvers::equilibrium_path(column(uniform_beam(1, soft(20)), extensible(8, Partition::segment_masses)), path);
     REQUIRE(found.stability_change);
     CHECK(found.stability_change->factor() == Approx(discrete(20, 8)).epsilon(2e-5));
 }

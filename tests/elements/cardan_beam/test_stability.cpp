@@ -1,7 +1,7 @@
 // Critical loads of beams of cardanic elements. "Discrete" values were computed by an independent implementation of
 // the same formulas (docs/verification.md), exact ones are analytic (tests/oracles).
 #include "solvers/equilibrium/buckling.hpp"
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "solvers/equilibrium/load_stability.hpp"
 #include "tests/elements/cardan_beam/cantilever.hpp"
 #include "tests/oracles/beck_column.hpp"
@@ -119,10 +119,10 @@ TEST_CASE("column: the dynamic criterion and the load path lose stability at the
     CHECK(found.kind == Instability::divergence);
     CHECK(found.factor == Approx(expected).epsilon(1e-7));
     CHECK(found.eigenvalue.imag() == 0);
-    LoadPathOptions options;
+    EquilibriumPathOptions options;
     options.factors = {0, 1, 2, 3, 4};
     options.stability_tolerance = 1e-9;
-    const LoadPath path = load_path(system, options);
+    const EquilibriumPath path = equilibrium_path(system, options);
     REQUIRE(path.converged);
     REQUIRE(path.stability_change);
     CHECK(path.stability_change->factor() == Approx(expected).epsilon(1e-8));
@@ -183,10 +183,10 @@ TEST_CASE(
     "[analytic][slow]") {
     const auto on_path = [](int elements, double EI_y) {
         const Narrow narrow(elements, sixth, EI_y);
-        LoadPathOptions options;
+        EquilibriumPathOptions options;
         options.factors = {0, 2, 3, 4, 5};
         options.stability_tolerance = 1e-7;
-        const LoadPath path = load_path(narrow.tip_force(), options);
+        const EquilibriumPath path = equilibrium_path(narrow.tip_force(), options);
         REQUIRE(path.converged);
         REQUIRE(path.stability_change);
         CHECK(path.stability_change->negative_pivots_after == 1);

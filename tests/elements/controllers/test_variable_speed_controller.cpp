@@ -108,7 +108,7 @@ TEST_CASE("variable-speed controller: continues from its memory bit for bit; bad
     p.corner_frequency = 0;
     check_refused([&] { VariableSpeedController{p}; }, {"NREL 5 MW", "corner frequency [rad/s] = 0"});
     p = turbines::nrel5mw_controller();
-    p.optimum_from = 60;
+    p.region_2_speed = 60;
     check_refused([&] { VariableSpeedController{p}; }, {"speeds of the torque curve", "rising"});
 }
 

@@ -181,8 +181,8 @@ TEST_CASE(
     const VariableSpeedController program(parameters);
     const VariableSpeedParameters& p = parameters;
     const double width = VariableSpeedRounding().speed * p.rated_speed, angle = VariableSpeedRounding().constant_power;
-    const std::vector<double> bends{p.cut_in, p.optimum_from, p.torque_law().transition_speed(), p.rated_speed,
-                                    p.rated_power / p.max_torque};
+    const std::vector<double> bends{p.region_1_5_speed, p.region_2_speed, p.torque_law().transition_speed(),
+                                    p.rated_speed, p.rated_power / p.max_torque};
     ControlSignal::Point last = torque_at(60, 0);
     for (double w = 60; w < 140; w += 0.02) {
         const ControlSignal::Point now = torque_at(w, 0);

@@ -39,7 +39,7 @@ struct OneBody {
 
 /// Without any free coordinate: circuits alone.
 inline OneBody locked() {
-    return {JointKind::revolute, 1, CoordinateRole::driven};
+    return {JointKind::revolute, 1, CoordinateRole::prescribed};
 }
 
 /// Values of a group's channels at a state.

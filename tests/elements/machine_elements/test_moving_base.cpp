@@ -166,7 +166,7 @@ TEST_CASE("moving base: oblique directions are axes of translation and rotation"
 }
 
 TEST_CASE("moving base: coordinates carry names, units and the role asked for", "[property]") {
-    for (const CoordinateRole role : {CoordinateRole::driven, CoordinateRole::free}) {
+    for (const CoordinateRole role : {CoordinateRole::prescribed, CoordinateRole::free}) {
         MovingBaseOptions options;
         options.role = role;
         const Float f(options);

@@ -158,7 +158,7 @@ TEST_CASE("point spring: the stiff flyball governor", "[discrete]") {
 }
 
 TEST_CASE("point spring: the flyball governor driven at a constant speed", "[discrete]") {
-    const Governor governor(CoordinateRole::driven);
+    const Governor governor(CoordinateRole::prescribed);
     const System& system = governor.system;
     const int shaft = system.model.index("shaft");
     const SteadyState state =

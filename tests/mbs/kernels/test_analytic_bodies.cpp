@@ -20,7 +20,7 @@ RigidInertia wheel(double m, const Vec3& moments) {
     return {m, Vec3::Zero(), moments.asDiagonal()};
 }
 
-constexpr CoordinateRole driven_role = CoordinateRole::driven;
+constexpr CoordinateRole driven_role = CoordinateRole::prescribed;
 constexpr CoordinateRole free_role = CoordinateRole::free;
 
 }  // namespace

@@ -178,7 +178,7 @@ struct OnMovingBase {
         FrameId at = Tree::base();
         for (int axis = 0; axis < 3; ++axis) {
             Joint joint{text("base ", "xyz"[axis]), at, JointKind::prismatic, Vec3::Unit(axis)};
-            joint.role = CoordinateRole::driven;
+            joint.role = CoordinateRole::prescribed;
             at = add_joint(moving, joint).axes;
         }
         bodies = transplant(moving, at, source);

@@ -38,7 +38,7 @@ struct SliderCrank {
     static System make(CutKind kind) {
         Tree tree;
         LoopSet loops;
-        add(tree, loops, kind, CoordinateRole::driven);
+        add(tree, loops, kind, CoordinateRole::prescribed);
         return {tree, {}, loops};
     }
     /// Its parts, and the loop; the slider.

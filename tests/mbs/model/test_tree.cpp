@@ -188,7 +188,7 @@ TEST_CASE("coordinates: the table names, measures and sorts them", "[analytic]")
     const auto add = [&](const char* name, JointKind joint, CoordinateInfo info) {
         tree.add_body({.name = name, .joint = joint, .inertia = random_inertia(random), .coordinate = info});
     };
-    add("a", JointKind::revolute, {.name = "spin", .part = "shaft", .role = CoordinateRole::driven});
+    add("a", JointKind::revolute, {.name = "spin", .part = "shaft", .role = CoordinateRole::prescribed});
     add("b", JointKind::prismatic, {.name = "", .part = "blade", .blade = 1, .unit = "furlong"});
     add("c", JointKind::revolute, {.name = "pitch", .part = "blade", .blade = 2});
     const Model model(tree);

@@ -231,7 +231,7 @@ TEST_CASE("urdf export: what URDF cannot say is listed, and stands in the file",
     rotor.coordinate.part = "drive train";
     const BodyId turning = tree.add_body(rotor);
     BodySpec slider{.name = "slider", .joint = JointKind::prismatic, .inertia = random_inertia(random)};
-    slider.coordinate.role = CoordinateRole::driven;
+    slider.coordinate.role = CoordinateRole::prescribed;
     tree.add_body(slider);
     tree.weld(tree.frame_of(turning), {1, Vec3::Zero(), Vec3(0, 0, 1).asDiagonal(), true}, "yaw ring");
     tree.weld(tree.frame_of(turning), random_inertia(random), "slider");

@@ -27,7 +27,7 @@ System carousel(const std::array<int, 3>& axes, const std::string& chart) {
                      .inboard = body,
                      .axis = Vec3::UnitX(),
                      .inertia = {1, Vec3::Zero(), Vec3(0.4, 0.3, 0.3).asDiagonal()},
-                     .role = CoordinateRole::driven});
+                     .role = CoordinateRole::prescribed});
     const Link pendulum = add_joint(
         tree, {.name = "pendulum", .inboard = body, .axis = Vec3::UnitY(), .inertia = {1, {0.3, 0, 0}, Mat3::Zero()}});
     ForceSet forces;

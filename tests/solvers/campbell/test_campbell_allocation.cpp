@@ -18,13 +18,13 @@ void require_no_allocation_by_stage(const System& system, const RotorMap& map, c
     Lineariser lineariser(system);
     const ColemanTransform coleman(map, unknowns);
     ModeSolver mode_solver(std::ssize(unknowns));
-    std::optional<EnergyShares> energy_shares;
+    std::optional<EnergyFractions> energy_shares;
     SteadyOptions options;
     SteadyState steady;
     Linearisation lin;
     SecondOrderSystem own;
     Mode mode;
-    std::vector<Share> shares;
+    std::vector<EnergyFraction> shares;
     Vector by_row;
     for (int round = 0; round < 3; ++round)
         for (const double speed : speeds) {

@@ -68,7 +68,7 @@ CampbellOptions by(CampbellMethod method) {
     return options;
 }
 
-// Share of the elastic energy in all components of a family.
+// EnergyFraction of the elastic energy in all components of a family.
 double share_of(const Campbell& d, const CampbellMode& mode, const std::string& family) {
     double sum = 0;
     for (std::size_t c = 0; c < d.components.size(); ++c)

@@ -321,14 +321,15 @@ TEST_CASE("unequal blades: every blade is measured by its own stiffness and its 
     // In rotation the shares still add up.
     const Campbell turning = diagram_of(rotor, {2.0}, {.spin = RotorSpin::prescribed});
     for (const CampbellMode& m : turning.points[0].modes) {
-        const double sum = std::accumulate(m.shares.begin(), m.shares.end(), 0.0,
-                                           [](double total, const Share& share) { return total + share.total(); });
+        const double sum =
+            std::accumulate(m.shares.begin(), m.shares.end(), 0.0,
+                            [](double total, const EnergyFraction& share) { return total + share.total(); });
         CHECK(sum == Approx(1).epsilon(1e-12));
         CHECK(m.blade_shares.maxCoeff() == Approx(1).epsilon(1e-9));
     }
     // A third of the energy of a localised mode is in each of the patterns of three.
     const CampbellMode& lag = *turning.mode(turning.branch("blade lag (blade 3)"), 0);
-    const Share& share = entry(lag.shares, turning.branch("blade lag (blade 3)").component);
+    const EnergyFraction& share = entry(lag.shares, turning.branch("blade lag (blade 3)").component);
     CHECK(share.collective / share.total() == Approx(1.0 / 3).epsilon(1e-6));
 }
 

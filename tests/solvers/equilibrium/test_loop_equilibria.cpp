@@ -1,8 +1,8 @@
 // Equilibria and small oscillations of mechanisms with loops.
 #include "elements/machine_elements/point_spring.hpp"
 #include "solvers/equilibrium/buckling.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "solvers/equilibrium/load_curve.hpp"
-#include "solvers/equilibrium/load_path.hpp"
 #include "solvers/equilibrium/load_stability.hpp"
 #include "solvers/equilibrium/natural_modes.hpp"
 #include "solvers/linear/loop_reduction.hpp"
@@ -39,7 +39,7 @@ struct PitchLinkage {
                                         .kind = JointKind::prismatic,
                                         .axis = Vec3(std::sin(tilt), 0, std::cos(tilt)),
                                         .inertia = {1e-6, Vec3::Zero(), Mat3::Zero()},
-                                        .role = rigid ? CoordinateRole::driven : CoordinateRole::free});
+                                        .role = rigid ? CoordinateRole::prescribed : CoordinateRole::free});
         ForceSet forces;
         forces.add_wrench({.name = "moment", .frame = blade.axes, .wrench = {Vec3::Zero(), Vec3(moment, 0, 0)}});
         LoopSet loops;
@@ -223,12 +223,12 @@ TEST_CASE("loop equilibria: a blade pitched by crank and push rod", "[discrete]"
 
 TEST_CASE("loop equilibria: near its dead point the pitch linkage has a limit load", "[discrete]") {
     const PitchLinkage linkage(false, 0.9, 1e4);
-    LoadPathOptions options;
+    EquilibriumPathOptions options;
     options.state.initial = Vector{{1.796441639572, 0.9}};
     options.factors = {0, 1, 2, 3, 4, 4.5, 5};
     options.largest_change = 0.1;
     options.smallest_step = 1e-6;
-    const LoadPath path = load_path(linkage.system, options);
+    const EquilibriumPath path = equilibrium_path(linkage.system, options);
     CHECK_FALSE(path.converged);  // load control ends at the limit
     CHECK(path.points.back().factor * 1e4 == Approx(47076.0).epsilon(1e-5));
     CHECK(path.points.back().at.q(0) == Approx(1.906609).margin(1e-3));  // a root there: half the digits
@@ -298,11 +298,11 @@ TEST_CASE("loop equilibria: a toggle of two bars and a spring has its limit in c
     CHECK(curve.limits[1].at.q(0) == Approx(-t_limit).margin(1e-8));
     CHECK(curve.points.front().negative_pivots == 0);
     // Under load control the path ends there.
-    LoadPathOptions controlled;
+    EquilibriumPathOptions controlled;
     controlled.state.initial = options.state.initial;
     controlled.factors = {0, 0.1, 3};
     controlled.largest_change = 0.1;
-    const LoadPath path = load_path(system, controlled);
+    const EquilibriumPath path = equilibrium_path(system, controlled);
     CHECK_FALSE(path.converged);
     CHECK(100 * path.points.back().factor == Approx(load(t_limit)).epsilon(1e-3));
     check_refused([&] { (void)load_curve(system, {.from = 1, .to = 1}); }, {"load factors"});

@@ -29,7 +29,7 @@ long resident_memory() {
 TEST_CASE("long runs: the second to the tenth hundred thousand of recorded steps take no more memory than the first",
           "[property][slow]") {
     if (resident_memory() < 0) return;  // no Linux
-    const System system = chain(0.3, CoordinateRole::driven);
+    const System system = chain(0.3, CoordinateRole::prescribed);
     const test::Folder folder;
     for (const Method method : {Method::dirk, Method::generalised_alpha}) {
         IntegrationOptions options = with(method, 1e-3, 1e-3);

@@ -215,8 +215,8 @@ TEST_CASE("coleman: on a rigid hub a rotating-frame frequency splits into backwa
     CHECK(std::abs(found[2].shape(2) / found[2].shape(1) - Complex(0, -1)) < 1e-10);
 
     // So say the names.
-    const EnergyShares energy_shares(linearise(rotor.system, rotor.spinning(Omega)), rotor.system.model, rotor.map,
-                                     rotor.unknowns(), T.rows());
+    const EnergyFractions energy_shares(linearise(rotor.system, rotor.spinning(Omega)), rotor.system.model, rotor.map,
+                                        rotor.unknowns(), T.rows());
     REQUIRE(energy_shares.components().size() == 1);
     CHECK(energy_shares.shares(found[0])[0].of(RotorPattern::backward) == Approx(1).epsilon(1e-12));
     CHECK(energy_shares.shares(found[1])[0].of(RotorPattern::collective) == Approx(1).epsilon(1e-12));

@@ -109,7 +109,7 @@ ChannelGroup positions(const Model& model) {
 
 TEST_CASE("state space: a mass that slides on a driven arm has the matrices that differentiation by hand gives",
           "[analytic]") {
-    const SlidingMass x(CoordinateRole::driven);
+    const SlidingMass x(CoordinateRole::prescribed);
     const System system(x.tree, x.forces);
     const Instant at = moving(0.7, 1.9, 0.4, 0.3, -0.2);
     const auto [a, w, e, r, v, s] = at;
@@ -147,7 +147,7 @@ TEST_CASE("state space: a mass that slides on a driven arm has the matrices that
 
 TEST_CASE("state space: an accelerated coordinate with states of its own gives the same transfer function",
           "[property]") {
-    const SlidingMass x(CoordinateRole::driven);
+    const SlidingMass x(CoordinateRole::prescribed);
     const System system(x.tree, x.forces);
     const DynamicState at = moving(0.7, 1.9, 0.4, 0.3, -0.2).of(x);
     const auto model_of = [&](const LinearInput& input) {
@@ -164,7 +164,7 @@ TEST_CASE("state space: an accelerated coordinate with states of its own gives t
 }
 
 TEST_CASE("state space: D of a motion is in proportion to its factor, however large or small that is", "[property]") {
-    const SlidingMass x(CoordinateRole::driven);
+    const SlidingMass x(CoordinateRole::prescribed);
     const System system(x.tree, x.forces);
     const DynamicState at = moving(0.7, 1.9, 0.4, 0.3, -0.2).of(x);
     const auto D = [&](double factor) {

@@ -58,14 +58,14 @@ Machine mast() {
     return m;
 }
 
-EnergyShares energy_shares_of(const SmallRotor& rotor) {
+EnergyFractions energy_shares_of(const SmallRotor& rotor) {
     return {linearised(rotor.system), rotor.system.model, rotor.map, rotor.unknowns(),
             ColemanTransform(rotor.map, rotor.unknowns()).rows()};
 }
 
-double sum(const std::vector<Share>& shares) {
+double sum(const std::vector<EnergyFraction>& shares) {
     return std::accumulate(shares.begin(), shares.end(), 0.0,
-                           [](double total, const Share& share) { return total + share.total(); });
+                           [](double total, const EnergyFraction& share) { return total + share.total(); });
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ TEST_CASE("energy shares: components are named after the axis of their coordinat
     const Machine m = mast();
     const System system(m.tree, m.forces);
     const std::vector<int> all = system.model.coordinates().free();
-    const EnergyShares energy_shares(linearised(system), system.model, m.map, all, plain(system));
+    const EnergyFractions energy_shares(linearised(system), system.model, m.map, all, plain(system));
     std::vector<std::string> names;
     double last = 0;
     for (std::size_t i = 0; i < energy_shares.components().size(); ++i) {
@@ -103,17 +103,17 @@ TEST_CASE("energy shares: shares of random shapes add up to one and follow the s
     const System system(m.tree, m.forces);
     const std::vector<int> all = system.model.coordinates().free();
     const Linearisation lin = linearised(system);
-    const EnergyShares energy_shares(lin, system.model, m.map, all, plain(system));
+    const EnergyFractions energy_shares(lin, system.model, m.map, all, plain(system));
     const SecondOrderSystem whole = restrict_to(lin, all);
     Random random(5);
     for (int i = 0; i < 20; ++i) {
         const Mode mode{Complex(0, 1), random_state(random, system.model.size()).cast<Complex>() +
                                            Complex(0, 1) * random_state(random, system.model.size())};
-        const std::vector<Share> shares = energy_shares.shares(mode);
+        const std::vector<EnergyFraction> shares = energy_shares.shares(mode);
         REQUIRE(sum(shares) == Approx(1).epsilon(1e-12));
         const int car = system.model.index("car");
         REQUIRE(shares.back().total() == Approx(energy_by_row(whole, mode)(car)).epsilon(1e-10));
-        for (const Share& share : shares) {
+        for (const EnergyFraction& share : shares) {
             REQUIRE(share.total() >= 0);
             REQUIRE(share.of(RotorPattern::none) == share.total());
         }
@@ -129,8 +129,8 @@ TEST_CASE("energy shares: a part without a family name is called by its own; rig
     m.add("swing", "sledge", free.axes, JointKind::revolute, Vec3::UnitX(), {2, {0, 0, 1.0}}, 50);
     m.map.parts = {{"sledge", Tree::base(), {}, {}}};
     const System system(m.tree, m.forces);
-    const EnergyShares energy_shares(linearised(system), system.model, m.map, system.model.coordinates().free(),
-                                     plain(system));
+    const EnergyFractions energy_shares(linearised(system), system.model, m.map, system.model.coordinates().free(),
+                                        plain(system));
     REQUIRE(energy_shares.components().size() == 1);
     CHECK(energy_shares.name(0, RotorPattern::none) == "sledge");
     // Two bodies that move against each other: the slider takes part, omega^2 = k / (m l^2) (M + m) / M.
@@ -143,7 +143,7 @@ TEST_CASE("energy shares: the phase between cosine and sine tells the whirl of a
         CAPTURE(blades);
         const SmallRotor rotor =
             small_rotor({.stiffness = std::vector<double>(static_cast<std::size_t>(blades), 2000.0), .offset = 0});
-        const EnergyShares energy_shares = energy_shares_of(rotor);
+        const EnergyFractions energy_shares = energy_shares_of(rotor);
         REQUIRE(energy_shares.components().size() == 1);
         CHECK(energy_shares.components()[0].of_blades);
         CHECK(energy_shares.components()[0].clamped_hz ==
@@ -166,7 +166,7 @@ TEST_CASE("energy shares: the phase between cosine and sine tells the whirl of a
         CHECK(share(1, 1, 0, 0).of(RotorPattern::collective) == Approx(0.5).epsilon(1e-13));
         if (blades == 4) CHECK(share(1, 0, 0, 3).of(RotorPattern::differential) == Approx(0.9).epsilon(1e-13));
         // Backward and forward share what cosine and sine hold.
-        const Share mixed = share(0.3, Complex(1, 2), Complex(-0.4, 0.7), 0.2);
+        const EnergyFraction mixed = share(0.3, Complex(1, 2), Complex(-0.4, 0.7), 0.2);
         CHECK(mixed.of(RotorPattern::backward) + mixed.of(RotorPattern::forward) ==
               Approx(mixed.cosine + mixed.sine).epsilon(1e-13));
         CHECK(mixed.total() == Approx(1).epsilon(1e-13));
@@ -175,10 +175,11 @@ TEST_CASE("energy shares: the phase between cosine and sine tells the whirl of a
 
 TEST_CASE("energy shares: two blades deflect alike or against each other", "[analytic]") {
     const SmallRotor rotor = small_rotor({.stiffness = {2000, 2000}, .offset = 0});
-    const EnergyShares energy_shares = energy_shares_of(rotor);
+    const EnergyFractions energy_shares = energy_shares_of(rotor);
     CHECK(energy_shares.two_blades());
     CHECK(energy_shares.name(0, RotorPattern::antisymmetric) == "blade flap (antisymmetric)");
-    const Share share = energy_shares.shares({Complex(0, 1), (ComplexVector(2) << 3, Complex(0, 1)).finished()})[0];
+    const EnergyFraction share =
+        energy_shares.shares({Complex(0, 1), (ComplexVector(2) << 3, Complex(0, 1)).finished()})[0];
     CHECK(share.of(RotorPattern::symmetric) == Approx(0.9).epsilon(1e-13));
     CHECK(share.of(RotorPattern::antisymmetric) == Approx(0.1).epsilon(1e-12));
 }
@@ -186,13 +187,13 @@ TEST_CASE("energy shares: two blades deflect alike or against each other", "[ana
 TEST_CASE("energy shares: shares of several harmonics are added up, and at a negative frequency the whirl is reversed",
           "[analytic]") {
     const SmallRotor rotor = small_rotor({.offset = 0});
-    const EnergyShares energy_shares = energy_shares_of(rotor);
+    const EnergyFractions energy_shares = energy_shares_of(rotor);
     const Complex i(0, 1);
     const Mode forward{Complex(0, 2), (ComplexVector(3) << 0, 1, -i).finished()},
         collective{Complex(0, 5), (ComplexVector(3) << 1, 0, 0).finished()},
         reversed{Complex(0, -1), (ComplexVector(3) << 0, 1, -i).finished()};
     CHECK(energy_shares.shares(std::vector<Mode>{reversed})[0].of(RotorPattern::backward) == Approx(1).epsilon(1e-13));
-    const Share sum = energy_shares.shares(std::vector<Mode>{forward, collective, reversed, reversed})[0];
+    const EnergyFraction sum = energy_shares.shares(std::vector<Mode>{forward, collective, reversed, reversed})[0];
     CHECK(sum.total() == Approx(1).epsilon(1e-13));
     CHECK(sum.of(RotorPattern::collective) == Approx(1.0 / 7).epsilon(1e-13));
     CHECK(sum.of(RotorPattern::forward) == Approx(2.0 / 7).epsilon(1e-13));

@@ -118,8 +118,8 @@ std::vector<Index> positions_first(const PeriodicSystem& system, int H) {
     return order;
 }
 
-// Share of the states beside the coordinates in every mode, as Mode::state_share, by the rows of the inverse of all
-// eigenvectors, the left ones.
+// EnergyFraction of the states beside the coordinates in every mode, as Mode::state_share, by the rows of the inverse
+// of all eigenvectors, the left ones.
 class StateShares {
 public:
     /// @param V  real and imaginary parts of all eigenvectors by column; none: no states beside the coordinates

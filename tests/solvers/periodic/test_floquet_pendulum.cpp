@@ -24,7 +24,8 @@ struct Shaken {
         forces.set_gravity({0, 0, -g});
         add_joint(tree, {.name = "wheel", .inertia = {1, Vec3::Zero(), Mat3::Identity()}});
         const Link support = add_joint(
-            tree, {.name = "support", .kind = JointKind::prismatic, .axis = direction, .role = CoordinateRole::driven});
+            tree,
+            {.name = "support", .kind = JointKind::prismatic, .axis = direction, .role = CoordinateRole::prescribed});
         const Link pendulum = add_joint(
             tree,
             {.name = "pendulum", .inboard = support.axes, .axis = Vec3::UnitY(), .inertia = {mass, {0, 0, -length}}});

@@ -122,7 +122,8 @@ TEST_CASE("Floquet: a pendulum upside down on a support that moves up and down f
     forces.set_gravity({0, 0, -g});
     add_joint(tree, {.name = "wheel", .inertia = {1, Vec3::Zero(), Mat3::Identity()}});
     const Link support = add_joint(
-        tree, {.name = "support", .kind = JointKind::prismatic, .axis = Vec3::UnitZ(), .role = CoordinateRole::driven});
+        tree,
+        {.name = "support", .kind = JointKind::prismatic, .axis = Vec3::UnitZ(), .role = CoordinateRole::prescribed});
     const Link pendulum = add_joint(
         tree, {.name = "pendulum", .inboard = support.axes, .axis = Vec3::UnitY(), .inertia = {m, {0, 0, l}}});
     forces.add_spring("damper", pendulum.body, 0, damping);

@@ -225,7 +225,7 @@ TEST_CASE("periodic state: driven coordinates move as prescribed", "[analytic]")
                                           .kind = slides,
                                           .axis = Vec3::UnitX(),
                                           .inertia = {1, Vec3::Zero()},
-                                          .role = CoordinateRole::driven});
+                                          .role = CoordinateRole::prescribed});
     const Link mass = add_joint(
         tree,
         {.name = "mass", .inboard = support.axes, .kind = slides, .axis = Vec3::UnitX(), .inertia = {m, Vec3::Zero()}});

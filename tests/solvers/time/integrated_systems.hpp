@@ -90,7 +90,7 @@ struct Shaker {
                                            .kind = JointKind::prismatic,
                                            .axis = Vec3::UnitX(),
                                            .inertia = {cart, Vec3::Zero(), Mat3::Zero()},
-                                           .role = CoordinateRole::driven});
+                                           .role = CoordinateRole::prescribed});
         const Link mass = add_joint(tree, {.name = "mass",
                                            .inboard = base.axes,
                                            .kind = JointKind::prismatic,

@@ -19,8 +19,9 @@ struct Circuit {
     System system() const {
         Tree tree;
         ForceSet forces;
-        add_joint(tree,
-                  {.name = "locked", .inertia = {1, Vec3::Zero(), Mat3::Identity()}, .role = CoordinateRole::driven});
+        add_joint(
+            tree,
+            {.name = "locked", .inertia = {1, Vec3::Zero(), Mat3::Identity()}, .role = CoordinateRole::prescribed});
         ForceElement element{
             .name = "circuit",
             .states = {{.name = "current", .unit = "A", .scale = 1}, {.name = "charge", .unit = "C", .scale = 0.1}}};

@@ -143,7 +143,7 @@ TEST_CASE("free body: as seen from a frame that turns", "[analytic]") {
     // On a turntable: without forces it flies straight on.
     Tree tree;
     const Link table =
-        add_joint(tree, {.name = "table", .inertia = {0, {}, Mat3::Identity()}, .role = CoordinateRole::driven});
+        add_joint(tree, {.name = "table", .inertia = {0, {}, Mat3::Identity()}, .role = CoordinateRole::prescribed});
     const FreeBody ball = tree.add_free_body(
         {.name = "ball", .inboard = table.axes, .inertia = {1, Vec3::Zero(), 0.1 * Mat3::Identity()}});
     const System system(tree, {});

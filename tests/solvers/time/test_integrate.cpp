@@ -157,7 +157,7 @@ TEST_CASE("integrate: Runge-Kutta methods with fixed steps are of order five", "
 TEST_CASE("integrate: energies, losses and supplies are in balance", "[solvers][integrate][property]") {
     for (Method method : methods) {
         for (double damping : {0.0, 0.4}) {
-            const System system = chain(damping, CoordinateRole::driven);
+            const System system = chain(damping, CoordinateRole::prescribed);
             Integrator integrator(system, {{0, Motion::rate_ramp(0.2, 0, 1.5, 0.3, 1.1)}}, 0, vector({0.2, 0.5, -0.4}),
                                   vector({0, 0, 0}), with(method));
             CHECK(integrator.advance(2).reached());
@@ -173,7 +173,7 @@ TEST_CASE("integrate: energies, losses and supplies are in balance", "[solvers][
 
 TEST_CASE("integrate: across the points of a table it agrees with small steps of another method",
           "[solvers][integrate][crosscheck]") {
-    const System system = chain(0.3, CoordinateRole::driven);
+    const System system = chain(0.3, CoordinateRole::prescribed);
     const Motion table = Motion::table({0, 0.4, 0.5, 1.0, 1.5}, {0, 0.1, 0.3, 0.2, 0.2});
     const Vector q0 = vector({0, 0.5, -0.4}), qd0 = vector({table.at(0).velocity, 0, 0});
     double inside = 0;

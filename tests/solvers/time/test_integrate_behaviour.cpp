@@ -118,7 +118,7 @@ TEST_CASE("integrate: exceptions of user forces pass through, and it can be canc
 
 TEST_CASE("integrate: steps allocate nothing", "[solvers][integrate][property]") {
     if (!AllocationGuard::works()) return;
-    const System system = chain(0.3, CoordinateRole::driven);
+    const System system = chain(0.3, CoordinateRole::prescribed);
     for (Method method : methods) {
         Integrator integrator(system, {{0, Motion::harmonic(0, 0.3, 1.5)}}, 0, vector({0, 0.5, -0.4}),
                               vector({0, 0, 0}), with(method, 1e-6, 1e-8));
@@ -159,7 +159,7 @@ TEST_CASE("integrate: an output may follow a break at any distance", "[solvers][
 }
 
 TEST_CASE("integrate: from a checkpoint it continues as if it had not stopped", "[solvers][integrate][property]") {
-    const System system = chain(0.4, CoordinateRole::driven);
+    const System system = chain(0.4, CoordinateRole::prescribed);
     const std::vector<Drive> drives{{0, Motion::harmonic(0, 0.3, 1.5)}};
     const Vector q = vector({0, 0.5, -0.4}), qd = vector({0.3, 0, 0});
     for (Method method : methods) {

@@ -225,7 +225,7 @@ TEST_CASE("integrate: with forces of any size it ends, with a reason", "[solvers
 }
 
 TEST_CASE("integrate: a one-step method continues from any checkpoint bit for bit", "[solvers][integrate][property]") {
-    const System system = chain(0.4, CoordinateRole::driven);
+    const System system = chain(0.4, CoordinateRole::prescribed);
     const std::vector<Drive> moved{{0, Motion::trajectory(Trajectory(1.3, {0, 0, 0}, 0.5, {0.3, 0.9}))}};
     const Vector q = vector({0, 0.5, -0.4});
     for (Method method : {Method::dirk, Method::erk, Method::generalised_alpha})

@@ -30,9 +30,9 @@ TEST_CASE("motion: an event gives a driven arm a new command in mid-travel; its 
     constexpr double J = 3;
     Tree tree;
     ForceSet forces;
-    const Link wheel = add_joint(
-        tree,
-        {.name = "wheel", .inertia = {1, Vec3::Zero(), Vec3(J, J, J).asDiagonal()}, .role = CoordinateRole::driven});
+    const Link wheel = add_joint(tree, {.name = "wheel",
+                                        .inertia = {1, Vec3::Zero(), Vec3(J, J, J).asDiagonal()},
+                                        .role = CoordinateRole::prescribed});
     add_joint(tree, {.name = "pendulum", .axis = Vec3::UnitY(), .inertia = {1, Vec3(0, 0, -1), Mat3::Zero()}});
     forces.set_gravity({0, 0, -units::standard_gravity});
     const System system(tree, forces);

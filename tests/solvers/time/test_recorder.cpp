@@ -22,7 +22,7 @@ ChannelGroup height_of_mass(const char* name = "height", const char* alias = "Pt
 
 TEST_CASE("recorder: names, units and values of states, energies and the user's channels",
           "[solvers][recorder][property]") {
-    const System system = chain(0.4, CoordinateRole::driven);
+    const System system = chain(0.4, CoordinateRole::prescribed);
     Integrator integrator(system, {{0, Motion::harmonic(0, 0.3, 1.5)}}, 0, vector({0, 0.5, -0.4}), vector({0, 0, 0}));
     Recorder recorder(integrator, {height_of_mass()}, {.accelerations = true});
     History history;

@@ -20,7 +20,7 @@ struct Carriage {
         Tree tree;
         ForceSet forces;
         const Link carriage =
-            add_joint(tree, {.name = "carriage", .kind = JointKind::prismatic, .role = CoordinateRole::driven});
+            add_joint(tree, {.name = "carriage", .kind = JointKind::prismatic, .role = CoordinateRole::prescribed});
         const Link mass = add_joint(tree, {.name = "mass",
                                            .inboard = carriage.axes,
                                            .kind = JointKind::prismatic,

@@ -24,7 +24,7 @@ TEST_CASE("states in time: the bordered factors solve what the full matrix does"
                                            .inboard = i == 2 ? Tree::base() : root,
                                            .axis = axes.at(static_cast<std::size_t>(i)),
                                            .inertia = {2, {0.1, 0.2, -0.4}, J},
-                                           .role = i == 1 ? CoordinateRole::driven : CoordinateRole::free});
+                                           .role = i == 1 ? CoordinateRole::prescribed : CoordinateRole::free});
         bodies.push_back(link.body);
         root = tree.add_frame(link.axes, Placement::translation({0.2, 0.1, -0.7}), text("end ", i));
         set.add_spring(text("spring ", i), link.body, 40 + i, 3);

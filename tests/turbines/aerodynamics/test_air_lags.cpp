@@ -62,7 +62,7 @@ private:
 MachineAir lagging_air_of(const Turbine& machine, Skew skew, bool airfoils = true) {
     RotorAirOptions options;
     options.skew = skew;
-    AirLagOptions lags{.dynamic_wake = true, .wake_time = 8};
+    UnsteadyAeroOptions lags{.dynamic_inflow = true, .inflow_time_constant = 8};
     if (airfoils) lags.airfoils = nrel5mw_unsteady_airfoils();
     return MachineAir(machine, nrel5mw_aero_blade(), sheared, options).lagging(lags);
 }
@@ -167,7 +167,7 @@ TEST_CASE("lagging air on a machine: names and groups of the states; what is ref
           4 * plain.lagging({.airfoils = one_state}).states());
     const Lagging oye(machine, plain.lagging({.airfoils = one_state}));
     CHECK(oye.forces().states()[0].name == "blade 1 section 5 point of separation");
-    check_refused([&] { static_cast<void>(plain.lagging({.dynamic_wake = true})); }, {"time of the wake [s] = 0"});
+    check_refused([&] { static_cast<void>(plain.lagging({.dynamic_inflow = true})); }, {"time of the wake [s] = 0"});
     std::vector<UnsteadyAirfoil> few = nrel5mw_unsteady_airfoils();
     few.pop_back();
     check_refused([&] { static_cast<void>(plain.lagging({.airfoils = few})); }, {"number of airfoils = 7", "8"});

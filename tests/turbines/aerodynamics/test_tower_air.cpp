@@ -169,14 +169,14 @@ TEST_CASE("air on a tower: evaluations allocate nothing", "[memory]") {
 
 TEST_CASE("air on a tower: other winds, and what is refused", "[validation]") {
     const Turbine machine = machine_on(Stand::elastic);
-    const AeroSupport support{.tower = table(2), .nacelle = box};
+    const TowerNacelleAero support{.tower = table(2), .nacelle = box};
     const FieldState at(machine, MachineState(machine));
     const TowerAir air = TowerAir(machine, support, SteadyWind{.speed = 5}).in(SteadyWind{.speed = 10});
     const TowerAir same(machine, support, SteadyWind{.speed = 10});
     CHECK(air.tower(at.input())[1] == same.tower(at.input())[1]);
     CHECK(air.nacelle(at.input()) == same.nacelle(at.input()));
     // Heights are counted from anywhere.
-    AeroSupport raised = support;
+    TowerNacelleAero raised = support;
     raised.tower.foot = 15;
     for (double& height : raised.tower.height) height += 15;
     CHECK((TowerAir(machine, raised, SteadyWind{.speed = 10}).tower(at.input())[1] - same.tower(at.input())[1]).norm() <

@@ -206,7 +206,7 @@ TEST_CASE("tower shadow on a machine: sections feel it where they are downwind, 
     state.q(before.rotor().spin) = pi - 0.03;
     state.qd(before.rotor().spin) = 1.1;
     const FieldState at(before, state);
-    const auto all = [&](const SteadyWind& wind, const AeroSupport& support) {
+    const auto all = [&](const SteadyWind& wind, const TowerNacelleAero& support) {
         std::vector<double> out;
         for (const auto& sections : MachineAir(before, blade, wind, {}, support).sections(at.input()))
             for (const SectionAir& s : sections) out.insert(out.end(), {s.V_x, s.V_y, s.force.normal, s.force.driving});

@@ -67,7 +67,7 @@ private:
             const Vec3 relative = Vec3(wind, -at.qd(plunge_), 0) - rate * lever * Vec3(-along.y(), along.x(), 0);
             const Annulus annulus{.blades = 1, .radius = 1, .chord = 2 * b, .angle = std::atan2(along.x(), along.y())};
             const SectionMotion motion{.V_x = relative.x(), .V_y = relative.y(), .rate = rate, .wake = {}};
-            const SectionLags lags{.airfoil = &airfoil_};
+            const UnsteadySection lags{.airfoil = &airfoil_};
             SectionStates states = SectionStates::Zero();
             states.head<UnsteadyAirfoil::states>() = at.s;
             RotorAirOptions options;

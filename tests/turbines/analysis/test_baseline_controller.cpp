@@ -60,7 +60,7 @@ TEST_CASE("baseline controller: on another shaft it is the same controller of th
         CHECK(50 * fast.gains[i].integral == Approx(slow.gains[i].integral).epsilon(1e-9));
     }
     CHECK(fast.optimal_gain * 50 * 50 * 50 == Approx(slow.optimal_gain).epsilon(1e-9));
-    CHECK(fast.cut_in == Approx(50 * slow.cut_in));
+    CHECK(fast.region_1_5_speed == Approx(50 * slow.region_1_5_speed));
     CHECK(fast.max_torque * 50 == Approx(slow.max_torque));
 }
 

@@ -130,7 +130,7 @@ TEST_CASE("mode names: three quarters of the energy under one name is that name,
                 for (const Branch& branch : diagram.branches) {
                     const CampbellMode* const mode = diagram.mode(branch, i);
                     if (mode == nullptr) continue;
-                    for (const solvers::Share& share : mode->shares)
+                    for (const solvers::EnergyFraction& share : mode->shares)
                         for (const RotorPattern pattern :
                              {RotorPattern::collective, RotorPattern::backward, RotorPattern::forward}) {
                             if (share.of(pattern) < 0.75) continue;
@@ -156,7 +156,7 @@ TEST_CASE("mode names: less than half of the energy, or another part with four f
                 if (mode == nullptr || branch.component < 0) continue;
                 const double own = entry(mode->shares, branch.component).total();
                 double next = 0;
-                for (const solvers::Share& share : mode->shares)
+                for (const solvers::EnergyFraction& share : mode->shares)
                     if (share.component != branch.component) next = std::max(next, share.total());
                 CAPTURE(name, i, branch.name, own, next);
                 CHECK(branch.doubtful[i] == !branch.doubt[i].empty());

@@ -106,7 +106,7 @@ void check_same(const Machine& a, const Machine& b) {
     CHECK(to_yaml(a) == to_yaml(b));
     CHECK(dofs_of(a.description) == dofs_of(b.description));
     CHECK(a.yaw_drive.stiffness == b.yaw_drive.stiffness);
-    CHECK(a.site.tower_foot == b.site.tower_foot);
+    CHECK(a.site.tower_base == b.site.tower_base);
     CHECK(a.operation.rotor_speed == b.operation.rotor_speed);
     CHECK(a.operation.pitch == b.operation.pitch);
     CHECK(a.operation.rated_power == b.operation.rated_power);
@@ -126,7 +126,7 @@ double power(const Machine& machine) {
                              .air = air.options,
                              .harmonics = 1,
                              .support = support_on(turbine, machine, air.support)});
-    const WindPoint point = operation.at({8, machine.operation.rotor_speed, 0.03});
+    const WindOperatingPoint point = operation.at({8, machine.operation.rotor_speed, 0.03});
     REQUIRE(point.converged);
     return point.power;
 }
@@ -159,7 +159,7 @@ TEST_CASE("machine: written as YAML and read again it is the same machine, with 
         for (const char* name : {"windio/small_v1.yaml", "windio/small_v2.yaml"}) {
             const Machine machine = read_machine(test::data_file(name));
             REQUIRE(machine.air);
-            CHECK(machine.site.tower_foot);
+            CHECK(machine.site.tower_base);
             check_same(machine, again(machine));
         }
     }
@@ -191,7 +191,7 @@ TEST_CASE("machine: written as YAML and read again it is the same machine, with 
         machine.operation.min_speed = 0.7;
         machine.operation.tip_speed_ratio = 7.1;
         machine.controller = {"/lib/discon.so", "a b.IN", 0.01, 0.93, true};
-        machine.site.tower_foot = 10.0 / 3;
+        machine.site.tower_base = 10.0 / 3;
         machine.air->torsion_sweep.assign(machine.air->blade.sections(), -0.1);
         const Machine read = again(machine);
         check_same(machine, read);

@@ -397,7 +397,7 @@ TEST_CASE("machine on a platform: its coordinates are named and the description 
     for (const char* name : {"surge", "sway", "heave", "roll", "pitch", "yaw"}) {
         const CoordinateInfo& row = table[table.index(text("platform ", name))];
         CHECK(row.part == "platform");
-        CHECK(row.role == CoordinateRole::driven);
+        CHECK(row.role == CoordinateRole::prescribed);
     }
     CHECK(turbine.rotor().description.find("on a platform of 1234 kg") != std::string::npos);
     CHECK(mass(turbine) - mass(on_ground(earth_gravity).assembled()) == Approx(1234));

@@ -162,7 +162,7 @@ TEST_CASE("channels: a force on a nacelle that is fixed to a rigid tower comes d
     d.yaw = {rigid_joint, rigid_joint};
     const Vec3 F(300, -200, 100), arm(0, 0, 50.7);
     for (const bool afloat : {false, true}) {
-        if (afloat) d.platform.emplace().mooring_pull = Vec3(7e5, 3e5, 0);  // on the platform, not on the tower
+        if (afloat) d.platform.emplace().mooring_preload = Vec3(7e5, 3e5, 0);  // on the platform, not on the tower
         const Turbine bare = assemble(d, wt600_paper_assembly());
         const FrameId nacelle = bare.tree().frame("nacelle");
         ForceSet forces = bare.forces();

@@ -90,8 +90,8 @@ TEST_CASE("machine variants: a bearing that was not given is refused with its na
         [](D& d) {
             d.yaw.translation = {0, 3, JointSupport::Kind::rigid};
         },
-        {"yaw.translation.damping [N s/m] = 3", "rigid or driven"});
-    check_description_refused([](D& d) { d.drive_train.main_shaft = turbines::driven_joint; },
+        {"yaw.translation.damping [N s/m] = 3", "rigid or prescribed"});
+    check_description_refused([](D& d) { d.drive_train.main_shaft = turbines::prescribed_joint; },
                               {"main_shaft = driven", "drive_train.spin"});
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("machine variants: degrees for radians and per cent for ratios are not
 
 TEST_CASE("machine variants: a driven joint that rests is as good as none; it keeps its coordinate", "[property]") {
     const Turbine none = machine([](D&d) { d.yaw.rotation = d.blade.pitch = rigid_joint; }),
-                  driven = machine([](D&d) { d.yaw.rotation = d.blade.pitch = turbines::driven_joint; });
+                  driven = machine([](D&d) { d.yaw.rotation = d.blade.pitch = turbines::prescribed_joint; });
     CHECK(driven.system().model.size() == none.system().model.size() + 4);
     CHECK(driven.system().model.coordinates().free().size() == none.system().model.coordinates().free().size());
     check_close(frequencies(driven, 27 * rpm), frequencies(none, 27 * rpm), 1e-9);
@@ -268,7 +268,8 @@ TEST_CASE("machine variants: a platform is part of the description and of its ch
     };
     refused([](PlatformDescription& p) { p.inertia.mass = -1; }, {"600 kW", "platform", "mass [kg] = -1"});
     refused([](PlatformDescription& p) { p.name = "raft", p.buoyancy = -2; }, {"600 kW", "raft", "buoyancy [N] = -2"});
-    refused([](PlatformDescription& p) { p.mooring(0, 1) = 1; }, {"600 kW", "mooring, surge by sway = 1", "symmetric"});
+    refused([](PlatformDescription& p) { p.mooring_stiffness(0, 1) = 1; },
+            {"600 kW", "mooring, surge by sway = 1", "symmetric"});
     refused([](PlatformDescription& p) { p.coordinates.rotations[0] = BaseCoordinate::surge; },
             {"600 kW", "number of rotations called yaw = 0", "1"});
     D d = turbines::wt600_description();
@@ -318,10 +319,10 @@ TEST_CASE("machine variants: whether the rotor is driven is part of the descript
         return turbine.system().model.coordinates()[turbine.rotor().spin].role;
     };
     CHECK(role() == CoordinateRole::free);
-    d.drive_train.spin = CoordinateRole::driven;
-    CHECK(role() == CoordinateRole::driven);
+    d.drive_train.spin = CoordinateRole::prescribed;
+    CHECK(role() == CoordinateRole::prescribed);
     const Turbine blade = turbines::isolated_blade(d, options);
-    CHECK(blade.system().model.coordinates()[blade.rotor().spin].role == CoordinateRole::driven);
+    CHECK(blade.system().model.coordinates()[blade.rotor().spin].role == CoordinateRole::prescribed);
     options.spin = CoordinateRole::free;
     CHECK(role() == CoordinateRole::free);
 }

@@ -39,7 +39,7 @@ TurbineDescription machine(const std::optional<PitchLinkage>& linkage, const Joi
 
 AssemblyOptions coarse() {
     AssemblyOptions options = nrel5mw_assembly(Nrel5mwVariant::fast, 2, 1);
-    options.spin = CoordinateRole::driven;
+    options.spin = CoordinateRole::prescribed;
     return options;
 }
 
@@ -48,7 +48,7 @@ AssemblyOptions coarse() {
 using namespace pitch_linkage_tests;
 
 TEST_CASE("pitch linkage: the stroke turns all blades as geometry has it", "[analytic]") {
-    const Turbine turbine = assemble(machine(linkage(driven_joint), free_joint), coarse());
+    const Turbine turbine = assemble(machine(linkage(prescribed_joint), free_joint), coarse());
     const Model& model = turbine.system().model;
     CHECK(turbine.layout().pitch_actuators.size() == 3);
     CHECK(turbine.loops().distances().at(0).length == Approx(1.9160983729226821).epsilon(1e-14));
@@ -90,7 +90,7 @@ TEST_CASE("pitch linkage: an actuator that yields is a spring at the blade", "[a
 }
 
 TEST_CASE("pitch linkage: blades pitch in time as their actuators move", "[analytic]") {
-    const Turbine turbine = assemble(machine(linkage(driven_joint), free_joint), coarse());
+    const Turbine turbine = assemble(machine(linkage(prescribed_joint), free_joint), coarse());
     const System& system = turbine.system();
     const Model& model = system.model;
     std::vector<Drive> drives;
@@ -140,18 +140,18 @@ TEST_CASE("pitch linkage: in files, and what cannot be is refused", "[property][
     const auto refuse = [](TurbineDescription bad, std::initializer_list<std::string> words) {
         check_refused([&] { bad.check(); }, words);
     };
-    refuse(machine(linkage(driven_joint), rigid_joint), {"blade.pitch", "rigid", "linkage"});
+    refuse(machine(linkage(prescribed_joint), rigid_joint), {"blade.pitch", "rigid", "linkage"});
     refuse(machine(linkage(free_joint), free_joint), {"linkage.actuator", "free"});
-    PitchLinkage dead = linkage(driven_joint);
+    PitchLinkage dead = linkage(prescribed_joint);
     dead.actuator_pin = -dead.crank_pin;
     refuse(machine(dead, free_joint), {"lever", "dead point"});
-    PitchLinkage still = linkage(driven_joint);
+    PitchLinkage still = linkage(prescribed_joint);
     still.direction.setZero();
     refuse(machine(still, free_joint), {"direction"});
-    PitchLinkage light = linkage(driven_joint);
+    PitchLinkage light = linkage(prescribed_joint);
     light.mass = 0;
     refuse(machine(light, free_joint), {"linkage.mass"});
-    TurbineDescription mixed = machine(linkage(driven_joint), free_joint);
+    TurbineDescription mixed = machine(linkage(prescribed_joint), free_joint);
     mixed.individual_blades[2] = mixed.blade;
     mixed.individual_blades[2]->linkage.reset();
     refuse(mixed, {"own_blades[2].linkage"});

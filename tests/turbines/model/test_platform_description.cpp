@@ -53,7 +53,7 @@ TEST_CASE("platform alone: mass, damping and stiffness are those put together by
     M.topRightCorner<3, 3>() -= body.mass * c;
     M.bottomLeftCorner<3, 3>() += body.mass * c;
     M.bottomRightCorner<3, 3>() += body.J - body.mass * c * c;
-    Mat6 K = p.hydrostatic + p.mooring;
+    Mat6 K = p.hydrostatic_stiffness + p.mooring_stiffness;
     // Metacentre: weight at its centre, buoyancy at its own.
     const double righting = units::standard_gravity * body.mass * (-body.com.z() + p.buoyancy_centre.z());
     K(3, 3) += righting;
@@ -85,7 +85,7 @@ TEST_CASE("platform alone: heave is the damped oscillation of mass and added mas
     p.added_mass(2, 5) = p.added_mass(5, 2) = 0;  // of a hull that is a screw
     const Afloat afloat(p);
     const System system = afloat.system();
-    const double m = p.inertia.mass + p.added_mass(2, 2), k = p.hydrostatic(2, 2) + p.mooring(2, 2),
+    const double m = p.inertia.mass + p.added_mass(2, 2), k = p.hydrostatic_stiffness(2, 2) + p.mooring_stiffness(2, 2),
                  b = p.damping(2, 2), delta = b / (2 * m), omega = std::sqrt(k / m - delta * delta);
     Vector q = Vector::Zero(6);
     const int heave = system.model.index(afloat.frames.base.coordinate(BaseCoordinate::heave));
@@ -118,8 +118,8 @@ TEST_CASE("platform alone: heave is the damped oscillation of mass and added mas
 TEST_CASE("platform alone: a body without stiffness keeps its momentum, added mass and all", "[analytic]") {
     // Constant added mass in the coordinates: g_ab x'^b of the translations is constant, whatever the body turns.
     PlatformDescription p = floating_freely(some_platform());
-    p.hydrostatic.setZero();
-    p.mooring.setZero();
+    p.hydrostatic_stiffness.setZero();
+    p.mooring_stiffness.setZero();
     p.damping.setZero();
     const Afloat afloat(p, Vec3::Zero());
     const System system = afloat.system();
@@ -146,8 +146,8 @@ TEST_CASE("platform alone: a body without stiffness keeps its momentum, added ma
 
 TEST_CASE("platform alone: without any stiffness there are no vibrations", "[property]") {
     PlatformDescription p = floating_freely(some_platform());
-    p.hydrostatic.setZero();
-    p.mooring.setZero();
+    p.hydrostatic_stiffness.setZero();
+    p.mooring_stiffness.setZero();
     p.damping.setZero();
     const solvers::SecondOrderSystem free = linear(Afloat(p, Vec3::Zero()).system());
     CHECK(free.K.isZero(0));
@@ -194,12 +194,12 @@ TEST_CASE("strip theory: bad hulls are refused", "[property]") {
 TEST_CASE("platform: single coordinates are free or driven, and only free ones have a stiffness that counts as elastic",
           "[property]") {
     PlatformDescription p = neutrally_buoyant();
-    p.coordinates.roles[0] = p.coordinates.roles[5] = CoordinateRole::driven;
+    p.coordinates.roles[0] = p.coordinates.roles[5] = CoordinateRole::prescribed;
     const Afloat afloat(p);
     const System system = afloat.system();
     const CoordinateTable& table = system.model.coordinates();
     for (const char* name : {"surge", "yaw"})
-        CHECK(table[table.index(text("platform ", name))].role == CoordinateRole::driven);
+        CHECK(table[table.index(text("platform ", name))].role == CoordinateRole::prescribed);
     for (const char* name : {"sway", "heave", "roll", "pitch"})
         CHECK(table[table.index(text("platform ", name))].role == CoordinateRole::free);
     const solvers::SecondOrderSystem all = linear(Afloat(neutrally_buoyant()).system()), some = linear(system);
@@ -219,7 +219,7 @@ TEST_CASE("platform: bad descriptions are refused with their name, the quantity,
     check_refused(with([](auto& p) { p.inertia.mass = -1; }), {"test spar", "mass", "-1"});
     check_refused(with([](auto& p) { p.inertia.mass = NAN; }), {"test spar", "mass", "nan"});
     check_refused(with([](auto& p) { p.inertia.J(0, 0) = -1; }), {"test spar", "moment"});
-    check_refused(with([](auto& p) { p.tower_foot.x() = NAN; }), {"test spar", "foot of the tower", "nan"});
+    check_refused(with([](auto& p) { p.tower_base.x() = NAN; }), {"test spar", "foot of the tower", "nan"});
     check_refused(with([](auto& p) { p.added_mass(0, 4) = 1; }), {"added mass, surge by pitch", "symmetric"});
     check_refused(with([](auto& p) { p.added_mass(2, 2) = -5; }), {"added mass, heave = -5", ">= 0"});
     check_refused(with([](auto& p) { p.added_mass(0, 4) = p.added_mass(4, 0) = 1e8; }),
@@ -228,17 +228,17 @@ TEST_CASE("platform: bad descriptions are refused with their name, the quantity,
     check_refused(with([](auto& p) { p.damping(5, 5) = -1; }), {"damping, yaw = -1"});
     check_refused(with([](auto& p) { p.damping(1, 2) = NAN; }), {"damping", "finite"});
     check_refused(with([](auto& p) { p.damping(1, 2) = 7; }), {"damping, sway by heave", "symmetric"});
-    check_refused(with([](auto& p) { p.hydrostatic(3, 4) = 1e6; }), {"hydrostatic stiffness, roll by pitch"});
-    check_refused(with([](auto& p) { p.hydrostatic(3, 3) = NAN; }), {"hydrostatic stiffness", "finite"});
-    check_refused(with([](auto& p) { p.mooring(0, 1) = 1e5; }), {"stiffness of the mooring, surge by sway"});
-    check_refused(with([](auto& p) { p.mooring(0, 1) = INFINITY; }), {"stiffness of the mooring", "finite"});
+    check_refused(with([](auto& p) { p.hydrostatic_stiffness(3, 4) = 1e6; }), {"hydrostatic stiffness, roll by pitch"});
+    check_refused(with([](auto& p) { p.hydrostatic_stiffness(3, 3) = NAN; }), {"hydrostatic stiffness", "finite"});
+    check_refused(with([](auto& p) { p.mooring_stiffness(0, 1) = 1e5; }), {"stiffness of the mooring, surge by sway"});
+    check_refused(with([](auto& p) { p.mooring_stiffness(0, 1) = INFINITY; }), {"stiffness of the mooring", "finite"});
     check_refused(with([](auto& p) { p.buoyancy = -1; }), {"buoyancy [N] = -1"});
     check_refused(with([](auto& p) { p.buoyancy_centre.z() = NAN; }), {"centre of buoyancy", "nan"});
-    check_refused(with([](auto& p) { p.mooring_pull.y() = NAN; }), {"pull of the mooring lines", "nan"});
+    check_refused(with([](auto& p) { p.mooring_preload.y() = NAN; }), {"pull of the mooring lines", "nan"});
     check_refused(with([](auto& p) { p.buoyancy_centre.z() = -60; }), {"test spar", "capsizes", "unit diagonal"});
     // Driven it may do that, since it cannot.
     PlatformDescription driven = neutrally_buoyant();
-    driven.coordinates.role = CoordinateRole::driven;
+    driven.coordinates.role = CoordinateRole::prescribed;
     driven.buoyancy_centre.z() = -60;
     CHECK_NOTHROW(Afloat(driven));
 }

@@ -35,8 +35,8 @@ WindOperation coarse_machine() {
 
 const Operation operation{8, 9.156 * units::rpm, 0};
 
-WindPoint found(WindOperation& machine, const Operation& at) {
-    WindPoint point = machine.at(at);
+WindOperatingPoint found(WindOperation& machine, const Operation& at) {
+    WindOperatingPoint point = machine.at(at);
     CAPTURE(point.message);
     REQUIRE(point.converged);
     return point;

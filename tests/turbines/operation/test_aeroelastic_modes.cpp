@@ -58,7 +58,7 @@ public:
 
     const WindOperation& operation() const { return machine_; }
     // Found once: wakes and airfoils share it.
-    const WindPoint& at(const Operation& operation) {
+    const WindOperatingPoint& at(const Operation& operation) {
         const auto [entry, is_new] = points_.try_emplace({operation.wind, operation.rotor_speed, operation.pitch});
         if (is_new) entry->second = machine_.at(operation);
         CAPTURE(entry->second.message);
@@ -86,7 +86,7 @@ private:
     }
 
     WindOperation machine_;
-    std::map<std::array<double, 3>, WindPoint> points_;  // of wind, rotor speed and pitch
+    std::map<std::array<double, 3>, WindOperatingPoint> points_;  // of wind, rotor speed and pitch
 };
 
 LevelMachine& shared_machine() {
@@ -167,7 +167,8 @@ void check_modes_in_shapes(const std::string& file, const std::vector<UnsteadyAi
         const bool frozen = at("frozen") != 0;
         std::vector<solvers::Mode>& modes = known[{at("wind"), frozen}];
         if (modes.empty()) {
-            const WindPoint point = machine.at({at("wind"), at("speed") * units::rpm, at("pitch") * units::degree});
+            const WindOperatingPoint point =
+                machine.at({at("wind"), at("speed") * units::rpm, at("pitch") * units::degree});
             const AeroelasticOptions air{.wake = frozen ? Wake::frozen : Wake::quasi_steady, .airfoils = airfoils};
             modes = modes_in_shapes(aeroelastic(machine.operation(), point, air), at("speed") * units::rpm);
         }
@@ -211,11 +212,12 @@ TEST_CASE("aeroelastic modes: a dynamic wake is frozen if its time is long, and 
           "[property]") {
     LevelMachine machine(3, 2, false);
     const Operation operation{8, 9.156 * units::rpm, 0};
-    const WindPoint point = machine.at(operation);
+    const WindOperatingPoint point = machine.at(operation);
     const Turbine& still = machine.operation().machine_without_air();
     const AeroelasticPoint start = aeroelastic(machine.operation(), point, {.wake = Wake::dynamic});
     const auto with_time = [&](double time) {
-        const MachineAir air = machine.operation().air_at(operation).lagging({.dynamic_wake = true, .wake_time = time});
+        const MachineAir air =
+            machine.operation().air_at(operation).lagging({.dynamic_inflow = true, .inflow_time_constant = time});
         const Turbine turbine = air.on(still);
         solvers::CampbellOptions options = low_modes();
         options.method = solvers::CampbellMethod::averaged;
@@ -229,8 +231,8 @@ TEST_CASE("aeroelastic modes: a dynamic wake is frozen if its time is long, and 
     };
     check_alike(machine.modes(operation, {.wake = Wake::frozen}), with_time(1e5), 1e-3);
     check_alike(machine.modes(operation, {.wake = Wake::quasi_steady}), with_time(1e-5), 1e-3);
-    CHECK(start.wake_time > 1);
-    CHECK(start.wake_time < 100);
+    CHECK(start.inflow_time_constant > 1);
+    CHECK(start.inflow_time_constant < 100);
 }
 
 TEST_CASE("aeroelastic modes: names of wakes, points without a state", "[validation]") {

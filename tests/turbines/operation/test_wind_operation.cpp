@@ -34,7 +34,7 @@ double tower_deflection(double thrust) {
 }
 
 // Mean of channels over a revolution, by their names in OpenFAST.
-std::map<std::string, double> means(const WindOperation& machine, const WindPoint& point) {
+std::map<std::string, double> means(const WindOperation& machine, const WindOperatingPoint& point) {
     const Turbine turbine = machine.machine(point.operation);
     const std::vector<ChannelGroup> groups = channels(turbine);
     solvers::ChannelValues values(turbine.system(), groups);
@@ -69,7 +69,8 @@ TEST_CASE("operation in the wind: the level machine against ElastoDyn and AeroDy
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const auto at = [&](const char* name) { return table.column(name)[i]; };
         if (at("tilt") != 0) continue;
-        const WindPoint point = machine.at({at("wind"), at("rotor_speed") * units::rpm, at("pitch") * units::degree});
+        const WindOperatingPoint point =
+            machine.at({at("wind"), at("rotor_speed") * units::rpm, at("pitch") * units::degree});
         CAPTURE(at("wind"), point.message);
         REQUIRE(point.converged);
         auto mean = means(machine, point);
@@ -99,7 +100,7 @@ TEST_CASE("operation in the wind: a constant state is the same by harmonic balan
     WindOperation periodic(description, assembly, nrel5mw_aero_blade(), options);
     REQUIRE(!periodic.is_constant());
     const Operation operation{8, 9.156 * units::rpm, 0.02};
-    const WindPoint a = constant.at(operation), b = periodic.at(operation);
+    const WindOperatingPoint a = constant.at(operation), b = periodic.at(operation);
     REQUIRE(a.converged);
     CAPTURE(b.message);
     REQUIRE(b.converged);
@@ -124,7 +125,7 @@ TEST_CASE("operation in the wind: a tower that changes the wind makes states per
     WindOperation influenced(description, assembly, nrel5mw_aero_blade(), options);
     REQUIRE(!influenced.is_constant());
     const Operation operation{8, 9.156 * units::rpm, 0.02};
-    const WindPoint a = dragged.at(operation), b = influenced.at(operation);
+    const WindOperatingPoint a = dragged.at(operation), b = influenced.at(operation);
     REQUIRE(a.converged);
     CAPTURE(b.message);
     REQUIRE(b.converged);
@@ -149,7 +150,8 @@ TEST_CASE("operation in the wind: what the tower's wake costs a downwind rotor",
         options.azimuths = azimuths;
         options.support.tower = {
             .height = {0, 87.6}, .diameter = {6, 3.87}, .drag = {0.2, 0.2}, .turbulence = {0.2, 0.2}, .shadow = shadow};
-        const WindPoint point = WindOperation(description, assembly, nrel5mw_aero_blade(), options).at(operation);
+        const WindOperatingPoint point =
+            WindOperation(description, assembly, nrel5mw_aero_blade(), options).at(operation);
         CAPTURE(point.message);
         REQUIRE(point.converged);
         return point.power;
@@ -182,8 +184,8 @@ TEST_CASE("operation in the wind: best tip-speed ratio, limits of speed and powe
                             .min_rotor_speed = 6.9 * units::rpm,
                             .rated_speed = 12.1 * units::rpm,
                             .rated_power = 5.2966e6};
-    const std::vector<WindPoint> points = machine.over(std::vector<double>{4, 8, 11, 12, 15, 24}, law);
-    for (const WindPoint& point : points) {
+    const std::vector<WindOperatingPoint> points = machine.over(std::vector<double>{4, 8, 11, 12, 15, 24}, law);
+    for (const WindOperatingPoint& point : points) {
         CAPTURE(point.operation.wind, point.message);
         REQUIRE(point.converged);
         CHECK(point.power <= law.rated_power * (1 + 2e-6));
@@ -195,7 +197,7 @@ TEST_CASE("operation in the wind: best tip-speed ratio, limits of speed and powe
     CHECK(points[3].operation.pitch > 0);
     CHECK(points[5].operation.pitch > points[4].operation.pitch);
     // Downward from the high winds it comes to the same.
-    const WindPoint back = machine.at(12, law);
+    const WindOperatingPoint back = machine.at(12, law);
     REQUIRE(back.converged);
     CHECK(back.operation.pitch == Approx(points[3].operation.pitch).epsilon(1e-4));
 }
@@ -227,7 +229,8 @@ TEST_CASE("operation in the wind: tilt and gravity against ElastoDyn and AeroDyn
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const auto at = [&](const char* name) { return table.column(name)[i]; };
         if (at("tilt") == 0) continue;
-        const WindPoint point = machine.at({at("wind"), at("rotor_speed") * units::rpm, at("pitch") * units::degree});
+        const WindOperatingPoint point =
+            machine.at({at("wind"), at("rotor_speed") * units::rpm, at("pitch") * units::degree});
         CAPTURE(at("wind"), point.message);
         REQUIRE(point.converged);
         auto mean = means(machine, point);
@@ -253,7 +256,8 @@ TEST_CASE("operation in the wind: IEA 22 MW machine from its files against OpenF
         CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/iea22_steady.csv");
     for (std::size_t i = 0; i < table.rows(); ++i) {
         const auto at = [&](const char* name) { return table.column(name)[i]; };
-        const WindPoint point = machine.at({at("wind"), at("rotor_speed") * units::rpm, at("pitch") * units::degree});
+        const WindOperatingPoint point =
+            machine.at({at("wind"), at("rotor_speed") * units::rpm, at("pitch") * units::degree});
         CAPTURE(at("program"), at("wind"), point.message);
         REQUIRE(point.converged);
         const Turbine turbine = machine.machine(point.operation);

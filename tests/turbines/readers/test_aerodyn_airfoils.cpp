@@ -267,7 +267,7 @@ TEST_CASE("aerodyn airfoils: IEA 22 MW rotor with and without lags against OpenF
         if (at("program") != 1) continue;
         AssemblyOptions options;
         options.blade_beam = iea22_blade_elements(rotor->description);
-        options.spin = CoordinateRole::driven;
+        options.spin = CoordinateRole::prescribed;
         options.pitch = at("pitch") * units::degree;
         const Turbine machine = assemble(rotor->description, options);
         const MachineAir air(machine, file.blade, {.speed = at("wind"), .density = file.density}, file.options);

@@ -207,7 +207,7 @@ TEST_CASE("openfast: blades with BeamDyn files of their own are own_blades", "[p
     // Without a pitch drive beside others with one: it is held.
     model.replace("other_BeamDyn.dat", "True   UsePitchAct", "False   UsePitchAct");
     const TurbineDescription held = read_openfast(model / "small_BeamDyn.fst").description;
-    CHECK(held.individual_blades.at(2)->pitch.kind == JointSupport::Kind::driven);
+    CHECK(held.individual_blades.at(2)->pitch.kind == JointSupport::Kind::prescribed);
     CHECK_NOTHROW(held.check());
     // And the other way round.
     model.replace("small_BeamDyn.dat", "True   UsePitchAct", "False   UsePitchAct");

@@ -177,8 +177,8 @@ TEST_CASE("elastodyn: inertia of pitch bearings and of blades about their axes i
     options.blade_beam.emplace().torsion = false;
     const auto armatures = [&] { return assemble(d, options).tree().armatures().size(); };
     const std::size_t rigid = armatures();
-    d.blade.pitch = driven_joint;
-    for (auto& [number, blade] : d.individual_blades) blade->pitch = driven_joint;
+    d.blade.pitch = prescribed_joint;
+    for (auto& [number, blade] : d.individual_blades) blade->pitch = prescribed_joint;
     CHECK(armatures() == rigid + 2);
     // BeamDyn's sections have inertia about their axis, and its pitch drive may have its own.
     CHECK(read_openfast(model / "small_BeamDyn.fst").description.blade.pitch_inertia == 20);
@@ -236,7 +236,7 @@ TEST_CASE("elastodyn: degrees of freedom switched off in the file are taken from
     CHECK(as_it_is.yaw_drive.stiffness == 2e7);
     const TurbineFile locked = changed({"GenDOF"});
     CHECK(!dofs_of(locked.description).generator);
-    CHECK(locked.description.drive_train.spin == CoordinateRole::driven);
+    CHECK(locked.description.drive_train.spin == CoordinateRole::prescribed);
     CHECK(as_it_is.description.drive_train.spin == CoordinateRole::free);
     CHECK(changed({"DrTrDOF"}).description.drive_train.main_shaft.is_rigid());
     const TurbineFile yaw = changed({"YawDOF"}, "small.fst");

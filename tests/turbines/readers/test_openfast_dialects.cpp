@@ -205,7 +205,7 @@ TEST_CASE("openfast dialects: a main file of FAST 7 is the machine of the same f
     model.write("platform.dat", "--- platform\nfloats\n 2 TwrDraft - downward\n");
     const TurbineFile afloat = read_openfast(model / "old.fst");
     CHECK(afloat.description.tower.line.length == Approx(22));
-    CHECK(afloat.tower_foot == 2);
+    CHECK(afloat.tower_base == 2);
     CHECK(afloat.description.missing_foundation.name == "floating platform");
     CHECK(has_note(afloat.notes, "TwrRBHt", "belongs to the ground"));
 }

@@ -73,15 +73,15 @@ inline turbines::PlatformDescription some_platform() {
     turbines::PlatformDescription p;
     p.name = "test spar";
     p.inertia = {1.5e6, Vec3(0.2, -0.1, -40), Vec3(4.8e8, 5e8, 3e7).asDiagonal()};
-    p.tower_foot = Vec3(0, 0, 5);
+    p.tower_base = Vec3(0, 0, 5);
     p.added_mass.diagonal() << 1.4e6, 1.3e6, 1e5, 2e9, 2.1e9, 1e6;
     p.added_mass(0, 4) = p.added_mass(4, 0) = -4e7;
     p.added_mass(1, 3) = p.added_mass(3, 1) = 3.8e7;
     p.added_mass(2, 5) = p.added_mass(5, 2) = 2e4;
-    p.hydrostatic.diagonal() << 0, 0, 2e5, 1e7, 1.2e7, 0;
-    p.mooring.diagonal() << 2e4, 2.5e4, 3e3, 4e7, 4e7, 2e7;
-    p.mooring(0, 4) = p.mooring(4, 0) = -5e5;
-    p.mooring(1, 3) = p.mooring(3, 1) = 6e5;
+    p.hydrostatic_stiffness.diagonal() << 0, 0, 2e5, 1e7, 1.2e7, 0;
+    p.mooring_stiffness.diagonal() << 2e4, 2.5e4, 3e3, 4e7, 4e7, 2e7;
+    p.mooring_stiffness(0, 4) = p.mooring_stiffness(4, 0) = -5e5;
+    p.mooring_stiffness(1, 3) = p.mooring_stiffness(3, 1) = 6e5;
     p.damping.diagonal() << 2e4, 2.2e4, 3e4, 1e7, 1.1e7, 3e6;
     p.damping(0, 4) = p.damping(4, 0) = -1e5;
     p.buoyancy_centre = Vec3(0, 0, -25);
@@ -99,8 +99,9 @@ inline turbines::PlatformDescription in_balance(turbines::PlatformDescription pl
                                                 const turbines::AssemblyOptions& options) {
     platform.buoyancy = 0;
     machine.platform = platform;
-    machine.platform->coordinates.role = CoordinateRole::driven;
-    platform.buoyancy = -options.gravity.z() * RigidWhole(assemble(machine, options)).mass - platform.mooring_pull.z();
+    machine.platform->coordinates.role = CoordinateRole::prescribed;
+    platform.buoyancy =
+        -options.gravity.z() * RigidWhole(assemble(machine, options)).mass - platform.mooring_preload.z();
     return platform;
 }
 

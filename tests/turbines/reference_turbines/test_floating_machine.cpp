@@ -71,7 +71,7 @@ struct ByHand {
         const RigidWhole whole(turbine);
         M = whole.M + p.added_mass;
         B = p.damping;
-        K = p.hydrostatic + p.mooring;
+        K = p.hydrostatic_stiffness + p.mooring_stiffness;
         const double righting = units::standard_gravity * -whole.first.z() + p.buoyancy * p.buoyancy_centre.z();
         K(3, 3) += righting;
         K(4, 4) += righting;
@@ -153,8 +153,8 @@ TEST_CASE("floating machine: on ever stiffer moorings its modes become those on 
     REQUIRE(ground.size() > 8);
     const auto difference = [&](double factor) {
         PlatformDescription stiff;
-        stiff.mooring.diagonal() << Vec3::Constant(1e9 * factor), Vec3::Constant(1e12 * factor);
-        stiff.mooring_pull.z() =
+        stiff.mooring_stiffness.diagonal() << Vec3::Constant(1e9 * factor), Vec3::Constant(1e12 * factor);
+        stiff.mooring_preload.z() =
             units::standard_gravity * RigidWhole(wt600(on_ground())).mass;  // or it would sink a little
         const std::vector<double> free = frequencies(floating(stiff));
         REQUIRE(free.size() == ground.size());
@@ -171,8 +171,8 @@ TEST_CASE("floating machine: on ever stiffer moorings its modes become those on 
 TEST_CASE("floating machine: unmoored, it moves as a rigid body without elastic force, and vibrates free-free",
           "[analytic]") {
     PlatformDescription raft = some_platform();
-    raft.hydrostatic.setZero();
-    raft.mooring.setZero();
+    raft.hydrostatic_stiffness.setZero();
+    raft.mooring_stiffness.setZero();
     raft.damping.setZero();
     const Turbine turbine = floating(raft, 1, Vec3::Zero());
     const solvers::SecondOrderSystem system =
@@ -231,8 +231,8 @@ TEST_CASE(
 
 TEST_CASE("floating machine: a steady drift changes nothing where no mooring and no water resist it", "[property]") {
     PlatformDescription adrift = some_platform();
-    adrift.mooring.setZero();
-    adrift.hydrostatic.setZero();
+    adrift.mooring_stiffness.setZero();
+    adrift.hydrostatic_stiffness.setZero();
     adrift.damping.setZero();
     adrift.buoyancy_centre.setZero();
     const Turbine turbine = floating(adrift);
@@ -280,7 +280,7 @@ TEST_CASE("floating machine: total momentum changes by external forces alone", "
         x(i) = state.q(row), xd(i) = state.qd(row), xdd(i) = state.qdd(row);
     }
     rate += (platform.added_mass * xdd).head<3>();
-    outer -= ((platform.hydrostatic + platform.mooring) * x + platform.damping * xd).head<3>();
+    outer -= ((platform.hydrostatic_stiffness + platform.mooring_stiffness) * x + platform.damping * xd).head<3>();
     CAPTURE(rate.transpose(), outer.transpose());
     CHECK((rate - outer).norm() < 1e-10 * platform.buoyancy);
 }
@@ -379,7 +379,7 @@ TEST_CASE("floating machine: channels of the platform are its displacement and i
                     Eigen::AngleAxisd(0.2, Vec3::UnitX()))
                        .toRotationMatrix();
     const Vec3 foot = x.head<3>() + R * Vec3(0, 0, 5);
-    CHECK((pose(kin, turbine.layout().tower_foot).p - foot).norm() < 1e-13);
+    CHECK((pose(kin, turbine.layout().tower_base).p - foot).norm() < 1e-13);
     // On the ground there are none.
     for (const ChannelGroup& group : channels(wt600(on_ground())))
         for (const Channel& channel : group.channels) CHECK(channel.alias != "PtfmSurge");

@@ -32,7 +32,7 @@ TEST_CASE("OC3-Hywind: hull, masses and buoyancy are those published", "[publish
     CHECK(whole.mass == Approx(8065437.845).epsilon(5e-5));
     CHECK(whole.first.z() / whole.mass == Approx(-77.97).margin(0.05));
     // Buoyancy less the pull of the lines carries the weight (to 1e-4: 4 kN or 1 cm of heave).
-    CHECK(spar.buoyancy + spar.mooring_pull.z() == Approx(units::standard_gravity * whole.mass).epsilon(1e-4));
+    CHECK(spar.buoyancy + spar.mooring_preload.z() == Approx(units::standard_gravity * whole.mass).epsilon(1e-4));
     CHECK(turbine.warnings().empty());
     CHECK(turbine.rotor().description.find("OC3-Hywind") != std::string::npos);
 }
@@ -56,7 +56,7 @@ TEST_CASE("OC3-Hywind: the pitch frequency of the whole is the published one", "
 }
 
 TEST_CASE("OC3-Hywind: held it is the machine on its tower without water", "[property]") {
-    const Turbine held = nrel5mw_on_oc3_hywind(CoordinateRole::driven, Nrel5mwVariant::fast, 2, 2);
+    const Turbine held = nrel5mw_on_oc3_hywind(CoordinateRole::prescribed, Nrel5mwVariant::fast, 2, 2);
     Nrel5mwOptions data = nrel5mw_options(Nrel5mwVariant::fast);
     data.tower = Nrel5mwTower::oc3_hywind;
     AssemblyOptions options = nrel5mw_assembly(Nrel5mwVariant::fast, 2, 2);

@@ -56,7 +56,7 @@ double farthest(const std::vector<Complex>& found, const std::vector<Complex>& e
 
 double sum_of(const CampbellMode& mode) {
     return std::accumulate(mode.shares.begin(), mode.shares.end(), 0.0,
-                           [](double total, const Share& share) { return total + share.total(); });
+                           [](double total, const EnergyFraction& share) { return total + share.total(); });
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ TEST_CASE(
             const double second = uniform(random, 0.8, 1.2), first = uniform(random, 0.8, 1.2);
             own.line = scaled(d.blade.line, first, second);
             own.pitch_setting += uniform(random, 0, 1) < 0.3 ? 1.4 : 0;
-            if (uniform(random, 0, 1) < 0.2 && !own.pitch.is_rigid()) own.pitch = turbines::driven_joint;
+            if (uniform(random, 0, 1) < 0.2 && !own.pitch.is_rigid()) own.pitch = turbines::prescribed_joint;
         }
         const bool gravity = i % 4 == 3 && !d.yaw.rotation.is_rigid();
         const Turbine turbine = turbines::assemble(d, small(gravity));
@@ -147,7 +147,7 @@ TEST_CASE("unequal rotors: of three places one is empty, one blade has a held pi
               d.blades = 6;
               d.individual_blades[1] = d.individual_blades[3] = d.individual_blades[5] = std::nullopt;
           }).empty());
-    CHECK(reason([](D& d) { (d.individual_blades[1] = d.blade)->pitch = turbines::driven_joint; }) ==
+    CHECK(reason([](D& d) { (d.individual_blades[1] = d.blade)->pitch = turbines::prescribed_joint; }) ==
           "blade 2 has other coordinates than blade 1");
     CHECK(reason([](D& d) { (d.individual_blades[2] = d.blade)->pitch_setting = 0.02; }) == "the blades differ");
     CHECK(reason([](D& d) { (d.individual_blades[2] = d.blade)->cone = 0.01; }) == "the blades differ");
@@ -184,7 +184,7 @@ TEST_CASE("unequal rotors: a free generator that unbalance or gravity hold weakl
 TEST_CASE("unequal rotors: pitch bearings that only some blades have are named as such", "[property]") {
     D d = turbines::wt600_description();
     d.individual_blades[1] = d.blade;
-    d.individual_blades[1]->pitch = turbines::driven_joint;
+    d.individual_blades[1]->pitch = turbines::prescribed_joint;
     const Turbine turbine = turbines::assemble(d, small(false));
     const Campbell diagram = campbell(turbine.system(), turbine.rotor(), {0.0}, {.max_frequency_hz = 1000});
     std::vector<std::string> families;

@@ -62,14 +62,14 @@ void check_same_platform(const TurbineDescription& d) {
     CHECK(a.inertia.mass == b.inertia.mass);
     CHECK(a.inertia.com == b.inertia.com);
     CHECK(a.inertia.J == b.inertia.J);
-    CHECK(a.tower_foot == b.tower_foot);
+    CHECK(a.tower_base == b.tower_base);
     CHECK(a.added_mass == b.added_mass);
-    CHECK(a.hydrostatic == b.hydrostatic);
-    CHECK(a.mooring == b.mooring);
+    CHECK(a.hydrostatic_stiffness == b.hydrostatic_stiffness);
+    CHECK(a.mooring_stiffness == b.mooring_stiffness);
     CHECK(a.damping == b.damping);
     CHECK(a.buoyancy == b.buoyancy);
     CHECK(a.buoyancy_centre == b.buoyancy_centre);
-    CHECK(a.mooring_pull == b.mooring_pull);
+    CHECK(a.mooring_preload == b.mooring_preload);
     CHECK(a.coordinates.role == b.coordinates.role);
     CHECK(a.coordinates.roles == b.coordinates.roles);
     CHECK(a.coordinates.directions == b.coordinates.directions);
@@ -124,7 +124,7 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         TurbineDescription d = read_openfast(test::data_file("openfast/small.fst")).description;
         d.individual_blades[2] = d.blade;
         d.individual_blades[2]->pitch_setting = 1.0 / 7;
-        d.individual_blades[2]->pitch = d.blade.pitch = driven_joint;
+        d.individual_blades[2]->pitch = d.blade.pitch = prescribed_joint;
         d.individual_blades[3] = std::nullopt;
         d.yaw.translation = {1e8, 1.0 / 3};
         d.unusual = true;
@@ -132,7 +132,7 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         const TurbineDescription read = parse_description(to_yaml(d), "machine.yaml");
         CHECK(read.unusual);
         CHECK(read.blade_at(2)->pitch_setting == 1.0 / 7);
-        CHECK(read.blade_at(2)->pitch.kind == JointSupport::Kind::driven);
+        CHECK(read.blade_at(2)->pitch.kind == JointSupport::Kind::prescribed);
         CHECK(read.blade_at(3) == nullptr);
         CHECK(read.blade_at(1) == &read.blade);
     }
@@ -147,18 +147,18 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         CHECK(d.blade_at(3) == nullptr);
         CHECK(assemble(d, {.tower_elements = 1, .blade_elements = 1}).layout().blade_numbers == std::vector<int>{1, 2});
         CHECK(d.tower.rigid);
-        CHECK(d.drive_train.spin == CoordinateRole::driven);
+        CHECK(d.drive_train.spin == CoordinateRole::prescribed);
         REQUIRE(d.platform);
         CHECK(d.platform->name == "a barge");
         CHECK(d.platform->added_mass(4, 0) == -2e5);
         CHECK(d.platform->buoyancy_centre == Vec3(0, 0, -3));
         CHECK(d.platform->coordinates.role == CoordinateRole::free);
-        CHECK(d.platform->coordinates.roles[1] == CoordinateRole::driven);
+        CHECK(d.platform->coordinates.roles[1] == CoordinateRole::prescribed);
         CHECK(d.platform->coordinates.roles[5] == CoordinateRole::free);
         CHECK_FALSE(d.platform->coordinates.roles[0]);
         const Turbine turbine = assemble(d, {.tower_elements = 1, .blade_elements = 1});
         const CoordinateTable& table = turbine.system().model.coordinates();
-        CHECK(table[table.index("platform sway")].role == CoordinateRole::driven);
+        CHECK(table[table.index("platform sway")].role == CoordinateRole::prescribed);
         CHECK(table[table.index("platform surge")].role == CoordinateRole::free);
         CHECK(table.of_part("tower").empty());
     }
@@ -166,14 +166,14 @@ TEST_CASE("description yaml: written and read again it is the same machine, bit 
         TurbineDescription spar = nrel5mw_oc3_hywind_description();
         spar.blade.line = beam_line(sampled(spar.blade.line, 1));  // linear between its breaks
         spar.platform->inertia.J(0, 1) = spar.platform->inertia.J(1, 0) = 1.0 / 3;
-        spar.platform->coordinates.roles[3] = CoordinateRole::driven;
+        spar.platform->coordinates.roles[3] = CoordinateRole::prescribed;
         check_same_platform(spar);
         TurbineDescription study = nrel5mw_platform_description(nrel5mw_platform_blade());
         study.blade.line = beam_line(sampled(study.blade.line, 1));
         check_same_platform(study);
         const TurbineDescription read = parse_description(to_yaml(study), "machine.yaml");
         CHECK(read.tower.rigid);
-        CHECK(read.drive_train.spin == CoordinateRole::driven);
+        CHECK(read.drive_train.spin == CoordinateRole::prescribed);
         CHECK(read.platform->coordinates.directions[1] == -Vec3::UnitY());
         CHECK(read.platform->coordinates.rotations[0] == BaseCoordinate::roll);
         CHECK(assemble(read).summary() == assemble(study).summary());

@@ -63,10 +63,10 @@ TEST_CASE("foundation: a soft vertical spring carries the machine and its own ma
 
 TEST_CASE("foundation: directions without end of stiffness are held", "[property]") {
     const PlatformDescription foundation = parse_foundation(vertical_only, "f");
-    CHECK(foundation.hydrostatic(2, 2) == 4e8);
-    CHECK(foundation.hydrostatic(0, 0) == 0);
+    CHECK(foundation.hydrostatic_stiffness(2, 2) == 4e8);
+    CHECK(foundation.hydrostatic_stiffness(0, 0) == 0);
     for (const std::size_t i : {0u, 1u, 3u, 4u, 5u})
-        CHECK(foundation.coordinates.roles.at(i) == CoordinateRole::driven);
+        CHECK(foundation.coordinates.roles.at(i) == CoordinateRole::prescribed);
     CHECK_FALSE(foundation.coordinates.roles.at(2));
 }
 

@@ -176,7 +176,7 @@ private:
         states_->f_s.block(first, first, m, m) += slopes.by.block(3, Slopes::first_state, m, m);
         const AirBlade& blade = parts_.blades[k];
         const SectionState& s = air_.sections(k)[i];
-        Eigen::Matrix<double, 6, SectionLags::max_states> loads;
+        Eigen::Matrix<double, 6, UnsteadySection::max_states> loads;
         for (int c = 0; c < m; ++c) loads.col(c) = load(s, slopes.by.block<3, 1>(0, Slopes::first_state + c));
         double L = 0;
         Vec3 X = Vec3::Zero();

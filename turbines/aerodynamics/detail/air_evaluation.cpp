@@ -142,7 +142,7 @@ void AirEvaluation::rates(VectorOut out) const {
 void AirEvaluation::steady_states(VectorOut out) const {
     if (!parts_.lags) return;
     for (std::size_t i = 0; i < scratch_.lagging.size(); ++i) {
-        const SectionLags& lags = parts_.lags->sections[i];
+        const UnsteadySection& lags = parts_.lags->sections[i];
         out.segment(parts_.lags->first[i], lags.states()) =
             cardan::steady_states(scratch_.sections[i].annulus, motion_of(i), parts_.options, lags).head(lags.states());
     }
@@ -157,7 +157,7 @@ void AirEvaluation::find_inductions() {
         const SectionState& s = scratch_.sections[i];
         scratch_.inflows[i] = {&s.annulus, s.relative.dot(s.x), s.relative.dot(s.y)};
     }
-    const auto is_frozen = [](const SectionLags& lags) { return lags.wake == WakeLag::frozen; };
+    const auto is_frozen = [](const UnsteadySection& lags) { return lags.wake == WakeLag::frozen; };
     if (!parts_.options.induction || mean_.share.value == 0 ||
         (parts_.lags && std::ranges::all_of(parts_.lags->sections, is_frozen))) {
         for (std::size_t i = 0; i < count; ++i)

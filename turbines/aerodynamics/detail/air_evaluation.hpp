@@ -17,7 +17,7 @@ namespace cardan::turbines {
 /// Unsteady parts of the air: of all sections, one blade after the other.
 struct AirLags {
     std::shared_ptr<const std::vector<UnsteadyAirfoil>> airfoils;  ///< sections point to these
-    std::vector<SectionLags> sections;
+    std::vector<UnsteadySection> sections;
     std::vector<int> first;  ///< index of a section's first state
     int states = 0;
 };

@@ -20,18 +20,18 @@ struct TowerPieces {
 };
 
 TowerPieces rigid_tower(const Model& model, const MachineLayout& layout) {
-    const Model::Frame &foot = model.frame(layout.tower_foot), &top = model.frame(layout.tower_top);
+    const Model::Frame &foot = model.frame(layout.tower_base), &top = model.frame(layout.tower_top);
     TowerPieces out;
     out.line.length = (top.in_body.p - foot.in_body.p).norm();
     const auto along = [axes = foot.in_body](double s) { return axes * Placement::translation({s, 0, 0}); };
-    out.pieces.push_back({0, out.line.length, layout.tower_foot, foot.body, foot.in_body, along});
+    out.pieces.push_back({0, out.line.length, layout.tower_base, foot.body, foot.in_body, along});
     return out;
 }
 
 TowerPieces tower_pieces(const Turbine& turbine) {
     const MachineLayout& layout = turbine.layout();
     const Model& model = turbine.system().model;
-    if (layout.tower_foot == FrameId{}) throw InputError("air on the tower", "tower", "none", "a machine that has one");
+    if (layout.tower_base == FrameId{}) throw InputError("air on the tower", "tower", "none", "a machine that has one");
     if (!layout.tower) return rigid_tower(model, layout);
     return {layout.tower->line, pieces_of(*layout.tower, model)};
 }

@@ -1,4 +1,5 @@
-/// @file Motion of bodies at a state, and of what they carry by their coordinates. Internal to the air on machines: not
+/// @file
+/// Motion of bodies at a state, and of what they carry by their coordinates. Internal to the air on machines: not
 /// installed.
 #pragma once
 

@@ -1,4 +1,5 @@
-/// @file Parts that a MachineAir consists of. Internal to the air on machines: not installed.
+/// @file
+/// Parts that a MachineAir consists of. Internal to the air on machines: not installed.
 #pragma once
 
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"

@@ -1,4 +1,5 @@
-/// @file Values that a run in time takes from the model where its settings say nothing. Internal to the room.
+/// @file
+/// Values that a run in time takes from the model where its settings say nothing. Internal to the room.
 #pragma once
 
 #include "turbines/analysis/settings.hpp"

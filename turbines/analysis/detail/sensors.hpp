@@ -1,4 +1,5 @@
-/// @file Sensors of a controller. Internal to the room.
+/// @file
+/// Sensors of a controller. Internal to the room.
 #pragma once
 
 #include "elements/controllers/bladed_controller.hpp"

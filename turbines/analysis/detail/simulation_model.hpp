@@ -1,4 +1,5 @@
-/// @file The model that a Simulation integrates. Internal to the room.
+/// @file
+/// The model that a Simulation integrates. Internal to the room.
 #pragma once
 
 #include "solvers/time/integrate.hpp"

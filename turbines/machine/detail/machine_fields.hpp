@@ -183,7 +183,7 @@ void machine_fields(Archive& archive, AnyMachine& m, Air& air) {
         archive.optional_number("density", m.site.density);
         archive.optional_number("viscosity", m.site.viscosity);
         archive.optional_number("gravity", m.site.gravity);
-        archive.optional_number("tower_foot", m.site.tower_foot);
+        archive.optional_number("tower_foot", m.site.tower_base);
     });
     archive.group_if(true, "operation", [&] { operation_fields(archive, m.operation); });
     archive.group_if(true, "controller", [&] {

@@ -96,9 +96,9 @@ FrameId Assembler::past_joint(FrameId carrier, JointKind kind, Axis axis, const 
 
 JointedFrame Assembler::jointed(FrameId carrier, JointKind kind, Axis axis, const std::string& name,
                                 const PartLabel& label, const JointSupport& bearing, const Vec3& offset) {
-    const bool driven = bearing.kind == JointSupport::Kind::driven;
+    const bool driven = bearing.kind == JointSupport::Kind::prescribed;
     const JointedFrame joint = add_joint(tree, carrier, kind, axis, name, label, offset,
-                                         driven ? CoordinateRole::driven : CoordinateRole::free);
+                                         driven ? CoordinateRole::prescribed : CoordinateRole::free);
     if (!driven) forces.add_spring(name, joint.body, bearing.stiffness, options_.joint_damping ? bearing.damping : 0.0);
     return joint;
 }
@@ -107,7 +107,7 @@ void Assembler::add_platform() {
     if (!d_.platform) return;
     const PlatformFrames platform = turbines::add_platform(tree, *d_.platform);
     layout.platform = platform.base;
-    foundation_ = platform.tower_foot;
+    foundation_ = platform.tower_base;
     if (platform.line.size() > 1) lines.push_back({"platform", 0, platform.line});
     parts.push_back({"platform",
                      Tree::base(),
@@ -117,8 +117,8 @@ void Assembler::add_platform() {
 
 FrameId Assembler::add_tower() {
     const Mat3 upward = axis_rotation(Axis::y);  // x -> z, y -> x, z -> y
-    layout.tower_foot = tree.add_frame(foundation_, Placement::rotation(upward), "tower foot");
-    const FrameId tip = d_.tower.rigid ? add_rigid_tower(layout.tower_foot) : add_flexible_tower(layout.tower_foot);
+    layout.tower_base = tree.add_frame(foundation_, Placement::rotation(upward), "tower foot");
+    const FrameId tip = d_.tower.rigid ? add_rigid_tower(layout.tower_base) : add_flexible_tower(layout.tower_base);
     return layout.tower_top = tree.add_frame(tip, Placement::rotation(upward.transpose()), "tower top");
 }
 
@@ -251,7 +251,7 @@ FrameId Assembler::add_teeter(FrameId rotor_centre, const TeeterDescription& tee
     const FrameId axis = tree.add_frame(rotor_centre, Placement::rotation(rot_z(-teeter.delta3)), "teeter axis");
     const JointedFrame turned = jointed(axis, JointKind::revolute, Axis::y, "teeter", {"teeter"}, teeter.bearing);
     layout.teeter = turned.body;
-    if (teeter.bearing.kind != JointSupport::Kind::driven) odd.push_back(turned.body);
+    if (teeter.bearing.kind != JointSupport::Kind::prescribed) odd.push_back(turned.body);
     parts.push_back({"teeter", rotor_centre, {}, {"", "teeter", ""}});
     return tree.add_frame(turned.frame, Placement::rotation(rot_z(teeter.delta3)), "hub");
 }
@@ -320,7 +320,7 @@ void Assembler::add_blade(FrameId hub, int number, const BladeDescription& blade
     }
     if (options_.pitch_drives) {
         const JointedFrame drive = add_joint(tree, root, JointKind::revolute, Axis::x, name + " pitch drive",
-                                             {"pitch", number}, Vec3::Zero(), CoordinateRole::driven);
+                                             {"pitch", number}, Vec3::Zero(), CoordinateRole::prescribed);
         coordinates.push_back(drive.body);
         layout.pitch_drives.push_back(drive.body);
         root = drive.frame;

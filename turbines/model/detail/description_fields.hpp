@@ -20,15 +20,15 @@ inline const char* name_of(LineShape shape) {
     return shape == LineShape::spline ? "spline" : "polyline";
 }
 
-inline const char* name_of(JointSupport::Kind hold) {
-    switch (hold) {
+inline const char* name_of(JointSupport::Kind kind) {
+    switch (kind) {
         case JointSupport::Kind::spring:
             return "spring";
         case JointSupport::Kind::free:
             return "free";
         case JointSupport::Kind::rigid:
             return "rigid";
-        case JointSupport::Kind::driven:
+        case JointSupport::Kind::prescribed:
             return "driven";
     }
     return "";
@@ -62,14 +62,14 @@ void platform_fields(Archive& archive, Platform& p) {
     archive.word("name", p.name);
     archive.word("source", p.source);
     archive.inertia("inertia", p.inertia);
-    archive.vector("tower_foot", p.tower_foot);
+    archive.vector("tower_foot", p.tower_base);
     archive.matrix("added_mass", p.added_mass);
-    archive.matrix("hydrostatic", p.hydrostatic);
-    archive.matrix("mooring", p.mooring);
+    archive.matrix("hydrostatic", p.hydrostatic_stiffness);
+    archive.matrix("mooring", p.mooring_stiffness);
     archive.matrix("damping", p.damping);
     archive.number("buoyancy", p.buoyancy);
     archive.vector("buoyancy_centre", p.buoyancy_centre);
-    archive.vector("mooring_pull", p.mooring_pull);
+    archive.vector("mooring_pull", p.mooring_preload);
     archive.group("coordinates", [&] {
         archive.role("role", p.coordinates.role);
         for (std::size_t i = 0; i < base_coordinate_names.size(); ++i)

@@ -80,7 +80,7 @@ void make_rigid(TurbineDescription& d, AssemblyOptions& options) {
 
 RigidInertia tower_top_inertia(TurbineDescription d, AssemblyOptions options) {
     make_rigid(d, options);
-    options.spin = CoordinateRole::driven;  // a rotor may be without inertia
+    options.spin = CoordinateRole::prescribed;  // a rotor may be without inertia
     const PartDamping none;
     Assembler machine(d, options, none);
     machine.whole_machine();

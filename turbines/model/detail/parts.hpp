@@ -1,4 +1,5 @@
-/// @file Data that a part of a machine needs of its description; not installed.
+/// @file
+/// Data that a part of a machine needs of its description; not installed.
 #pragma once
 
 #include "turbines/model/assembly_options.hpp"

@@ -1,4 +1,5 @@
-/// @file Common parts of the channels of loads, and the loads of a rigid tower. Internal to channels: not installed.
+/// @file
+/// Common parts of the channels of loads, and the loads of a rigid tower. Internal to channels: not installed.
 #pragma once
 
 #include "turbines/model/channels.hpp"

@@ -75,21 +75,21 @@ BeamTable DescriptionReader::table(YamlLevel level) {
 }
 
 void DescriptionReader::bearing(const char* key, JointSupport& b) {
-    using Hold = JointSupport::Kind;
+    using Kind = JointSupport::Kind;
     b = rigid_joint;
     const YamlNode node = at()[key];
     if (!node.is_map()) {
-        b.kind = choice(node, {Hold::free, Hold::rigid, Hold::driven});
+        b.kind = choice(node, {Kind::free, Kind::rigid, Kind::prescribed});
         return;
     }
     group(key, [&] {
         const auto hold = at().find("hold");
-        b.kind = hold ? choice(*hold, {Hold::free, Hold::spring}) : Hold::spring;
-        if (b.kind == Hold::spring) b.stiffness = at()["stiffness"].number(version_ == 1);
+        b.kind = hold ? choice(*hold, {Kind::free, Kind::spring}) : Kind::spring;
+        if (b.kind == Kind::spring) b.stiffness = at()["stiffness"].number(version_ == 1);
         number("damping", b.damping);
     });
     if (version_ == 1 && std::isinf(b.stiffness)) b = rigid_joint;
-    if (version_ == 1 && b.kind == Hold::spring && b.stiffness == 0) b.kind = Hold::free;
+    if (version_ == 1 && b.kind == Kind::spring && b.stiffness == 0) b.kind = Kind::free;
 }
 
 void DescriptionReader::inertia(const char* key, RigidInertia& i) {

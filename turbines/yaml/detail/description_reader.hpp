@@ -65,7 +65,7 @@ public:
         if (at().find(key)) numbers(key, values);
     }
     void role(const char* key, CoordinateRole& value) {
-        value = choice(at()[key], {CoordinateRole::free, CoordinateRole::driven});
+        value = choice(at()[key], {CoordinateRole::free, CoordinateRole::prescribed});
     }
     void optional_role(const char* key, CoordinateRole& value) {
         if (at().find(key)) role(key, value);

@@ -1,4 +1,5 @@
-/// @file Operation of a machine of a windIO file. Internal to windio: not installed.
+/// @file
+/// Operation of a machine of a windIO file. Internal to windio: not installed.
 #pragma once
 
 #include "turbines/yaml/detail/windio_file.hpp"

@@ -34,7 +34,7 @@ Turbine machine(const Vec3& gravity = {0, 0, -units::standard_gravity}) {
     d.hub.teeter = {.bearing = {3e5, 2e4}, .undersling = 0.4, .delta3 = 0.3};
     turbines::AssemblyOptions options = turbines::wt600_paper_assembly(2);
     options.gravity = gravity;
-    options.spin = CoordinateRole::driven;
+    options.spin = CoordinateRole::prescribed;
     return turbines::assemble(d, options);
 }
 

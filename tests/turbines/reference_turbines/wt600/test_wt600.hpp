@@ -74,9 +74,9 @@ inline double hz(const solvers::Campbell& d, const char* branch, int point) {
 }
 
 /// Part of the elastic energy of a mode in component number `ordinal` of a family, all rotor patterns.
-inline const solvers::Share& share(const solvers::Campbell& d, const solvers::CampbellMode& mode, const char* family,
-                                   int ordinal = 1) {
-    for (const solvers::Share& s : mode.shares) {
+inline const solvers::EnergyFraction& share(const solvers::Campbell& d, const solvers::CampbellMode& mode,
+                                            const char* family, int ordinal = 1) {
+    for (const solvers::EnergyFraction& s : mode.shares) {
         const solvers::Component& c = entry(d.components, s.component);
         if (c.family == family && c.ordinal == ordinal) return s;
     }

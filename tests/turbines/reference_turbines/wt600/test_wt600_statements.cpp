@@ -172,7 +172,7 @@ TEST_CASE("statement 3: at rest no mode whirls; in operation yaw whirls forward,
     const double speed[] = {0};
     const Campbell at_rest = solvers::campbell(machine.system(), machine.rotor(), speed);
     for (const auto& mode : at_rest.points[0].modes)
-        for (const solvers::Share& s : mode.shares)
+        for (const solvers::EnergyFraction& s : mode.shares)
             if (s.cosine + s.sine > 1e-3) CHECK(std::abs(s.whirl) < 1e-9);
     for (int point : {10, 20, 40}) {
         CHECK(share(diagram(), mode_of(diagram(), "rotor tilt", point), "blade flap").whirl < -0.98);

@@ -1,7 +1,7 @@
 // Load stepping on systems of one degree of freedom against balances by hand.
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 #include "tests/oracles/root_finding.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/contains.hpp"
@@ -40,7 +40,7 @@ struct Pendulum {
     }
 };
 
-void check_factors(const LoadPath& path, const std::vector<double>& expected) {
+void check_factors(const EquilibriumPath& path, const std::vector<double>& expected) {
     REQUIRE(path.points.size() == expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) CHECK(path.points[i].factor == expected[i]);
 }
@@ -50,11 +50,11 @@ void check_factors(const LoadPath& path, const std::vector<double>& expected) {
 TEST_CASE("load path: a hanging pendulum takes the angle of balance at every load factor", "[analytic]") {
     const double M = 0.95 * m * g * length;
     const System system = Pendulum{.moment = M}.system();
-    const LoadPath path = load_path(system, {.steps = 8, .gravity = false});
+    const EquilibriumPath path = equilibrium_path(system, {.steps = 8, .gravity = false});
     REQUIRE(path.converged);
     CHECK(path.message.empty());
     check_factors(path, {0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1});
-    for (const LoadPathPoint& point : path.points) {
+    for (const EquilibriumPathPoint& point : path.points) {
         CAPTURE(point.factor);
         CHECK(point.at.q(0) == Approx(std::asin(point.factor * 0.95)).margin(1e-10));
         CHECK(point.negative_pivots == 0);
@@ -69,10 +69,10 @@ TEST_CASE("load path: gravity grows with the loads or acts in full from the star
     const double k = 7, H = 12;
     const System system = Pendulum{.k = k, .force = {-H, 0, 0}}.system();
     for (const bool gravity : {true, false}) {
-        const LoadPath path = load_path(system, {.factors = {0, 0.3, 1, 2.5}, .gravity = gravity});
+        const EquilibriumPath path = equilibrium_path(system, {.factors = {0, 0.3, 1, 2.5}, .gravity = gravity});
         REQUIRE(path.converged);
         check_factors(path, {0, 0.3, 1, 2.5});
-        for (const LoadPathPoint& point : path.points) {
+        for (const EquilibriumPathPoint& point : path.points) {
             const double weight = gravity ? point.factor * m * g : m * g;
             const double expected = bisect(
                 [&](double q) {
@@ -86,23 +86,23 @@ TEST_CASE("load path: gravity grows with the loads or acts in full from the star
 
 TEST_CASE("load path: a follower force turns the pendulum without limit, k q = F l", "[analytic]") {
     const System system = Pendulum{.k = 2, .force = {-8, 0, 0}, .axes = WrenchAxes::frame, .gravity = 0}.system();
-    const LoadPath path = load_path(system, {.steps = 4});
+    const EquilibriumPath path = equilibrium_path(system, {.steps = 4});
     REQUIRE(path.converged);
-    for (const LoadPathPoint& point : path.points)
+    for (const EquilibriumPathPoint& point : path.points)
         CHECK(point.at.q(0) == Approx(point.factor * 8 * length / 2).margin(1e-10));
 }
 
 TEST_CASE("load path: an inverted pendulum loses stability at P l = k and is followed beyond", "[analytic]") {
     const double k = 20, critical = k / length;
     const System system = Pendulum{.k = k, .side = 1, .force = {0, 0, -1}, .gravity = 0}.system();
-    LoadPathOptions options{.factors = {0, 0.4 * critical, 0.8 * critical, 1.2 * critical, 2 * critical}};
-    const LoadPath coarse = load_path(system, options);
+    EquilibriumPathOptions options{.factors = {0, 0.4 * critical, 0.8 * critical, 1.2 * critical, 2 * critical}};
+    const EquilibriumPath coarse = equilibrium_path(system, options);
     REQUIRE(coarse.converged);
     REQUIRE(coarse.stability_change);
     CHECK(coarse.stability_change->before == 0.8 * critical);
     CHECK(coarse.stability_change->after == 1.2 * critical);
     options.stability_tolerance = 1e-10;
-    const LoadPath fine = load_path(system, options);
+    const EquilibriumPath fine = equilibrium_path(system, options);
     REQUIRE(fine.stability_change);
     CHECK(fine.stability_change->factor() == Approx(critical).epsilon(1e-10));
     CHECK(fine.stability_change->after - fine.stability_change->before <= 1e-10);
@@ -112,14 +112,14 @@ TEST_CASE("load path: an inverted pendulum loses stability at P l = k and is fol
     CHECK(fine.points.back().negative_pivots == 1);
     CHECK(fine.points.back().at.q(0) == Approx(0).margin(1e-12));
     // At the critical load itself spring and load cancel; the straight bar is an equilibrium none the less.
-    CHECK(load_path(system, {.factors = {0, critical, 2 * critical}}).converged);
+    CHECK(equilibrium_path(system, {.factors = {0, critical, 2 * critical}}).converged);
 }
 
 TEST_CASE("load path: an imperfect inverted pendulum leans over without losing stability", "[analytic]") {
     // k q = P l (sin q + e cos q) with a side force e P.
     const double k = 20, e = 0.01, P = 1.5 * k / length;
     const System system = Pendulum{.k = k, .side = 1, .force = {e * P, 0, -P}, .gravity = 0}.system();
-    const LoadPath path = load_path(system, {.steps = 30});
+    const EquilibriumPath path = equilibrium_path(system, {.steps = 30});
     REQUIRE(path.converged);
     CHECK_FALSE(path.stability_change);
     const double expected =
@@ -130,11 +130,11 @@ TEST_CASE("load path: an imperfect inverted pendulum leans over without losing s
 TEST_CASE("load path: beyond a limit load it ends with the last state, the factor and the reason", "[analytic]") {
     const double limit = m * g * length;
     const System system = Pendulum{.moment = 1.25 * limit}.system();  // limit at load factor 0.8
-    const LoadPath path = load_path(system, {.smallest_step = 1e-6, .gravity = false});
+    const EquilibriumPath path = equilibrium_path(system, {.smallest_step = 1e-6, .gravity = false});
     CHECK_FALSE(path.converged);
     CHECK(path.failed_steps > 3);
     REQUIRE(path.points.size() > 8);
-    const LoadPathPoint& last = path.points.back();
+    const EquilibriumPathPoint& last = path.points.back();
     CHECK(last.factor == Approx(0.8).margin(2e-6));
     CHECK(last.factor <= 0.8 + 1e-9);
     CHECK(last.at.q(0) == Approx(std::asin(1.25 * last.factor)).margin(1e-4));
@@ -148,7 +148,7 @@ TEST_CASE("load path: beyond a limit load it ends with the last state, the facto
 
 TEST_CASE("load path: a step that fails is not halved below the smallest one", "[analytic]") {
     const System system = Pendulum{.moment = 50 * m * g * length}.system();
-    const LoadPath path = load_path(system, {.steps = 1, .smallest_step = 0.6, .gravity = false});
+    const EquilibriumPath path = equilibrium_path(system, {.steps = 1, .smallest_step = 0.6, .gravity = false});
     CHECK_FALSE(path.converged);
     CHECK(path.failed_steps == 1);
     check_factors(path, {0});
@@ -157,9 +157,9 @@ TEST_CASE("load path: a step that fails is not halved below the smallest one", "
 
 TEST_CASE("load path: too few iterations for one step are made up by halving", "[analytic]") {
     const double M = 0.9 * m * g * length;
-    LoadPathOptions options{.steps = 1, .gravity = false};
+    EquilibriumPathOptions options{.steps = 1, .gravity = false};
     options.state.iterations = 3;
-    const LoadPath path = load_path(Pendulum{.moment = M}.system(), options);
+    const EquilibriumPath path = equilibrium_path(Pendulum{.moment = M}.system(), options);
     REQUIRE(path.converged);
     CHECK(path.failed_steps > 0);
     CHECK(path.points.back().factor == 1);
@@ -170,10 +170,10 @@ TEST_CASE("load path: a jump to a distant equilibrium is refused if its size is 
     // An inverted pendulum on a weak spring pushed through: it leans one way and the force turns round.
     const double k = 20, P = 1.2 * k / length;
     const System system = Pendulum{.k = k, .side = 1, .force = {-0.6 * P, 0, 0}, .gravity = P / m}.system();
-    LoadPathOptions options{.steps = 40, .smallest_step = 1e-4, .gravity = false};
+    EquilibriumPathOptions options{.steps = 40, .smallest_step = 1e-4, .gravity = false};
     options.state.initial = Vector::Constant(1, 1);
     options.largest_change = 0.5;
-    const LoadPath path = load_path(system, options);
+    const EquilibriumPath path = equilibrium_path(system, options);
     CHECK_FALSE(path.converged);
     // Limit point of k q = P l (sin q - 0.6 f cos q): stiffness zero.
     const double q = bisect(
@@ -205,9 +205,10 @@ TEST_CASE("load path in steady rotation: the rotor speed stays, the loads grow",
     forces.add_spring("flap spring", flap.body, k);
     forces.add_wrench({"thrust", tip, {{0, 0, force}, Vec3::Zero()}, WrenchAxes::base});
     const System system(tree, forces);
-    const LoadPath path = load_path(system, {.steps = 5, .spin = 0, .state = {.rotor_speed = Omega, .azimuth = 0.4}});
+    const EquilibriumPath path =
+        equilibrium_path(system, {.steps = 5, .spin = 0, .state = {.rotor_speed = Omega, .azimuth = 0.4}});
     REQUIRE(path.converged);
-    for (const LoadPathPoint& point : path.points) {
+    for (const EquilibriumPathPoint& point : path.points) {
         const double expected = bisect(
             [&](double q) {
                 return k * q + mass * Omega * Omega * (offset + bar * std::cos(q)) * bar * std::sin(q) -
@@ -222,7 +223,8 @@ TEST_CASE("load path in steady rotation: the rotor speed stays, the loads grow",
     // Gravity across the axis makes the state periodic as soon as it acts.
     ForceSet heavy = forces;
     heavy.set_gravity({0, -g, 0});
-    const LoadPath periodic = load_path(System(tree, heavy), {.steps = 5, .spin = 0, .state = {.rotor_speed = Omega}});
+    const EquilibriumPath periodic =
+        equilibrium_path(System(tree, heavy), {.steps = 5, .spin = 0, .state = {.rotor_speed = Omega}});
     CHECK_FALSE(periodic.converged);
     check_factors(periodic, {0});
     CHECK(contains(periodic.message, "no constant steady state"));
@@ -292,25 +294,29 @@ TEST_CASE("load factor: wrenches, user forces and, if wanted, gravity are multip
 TEST_CASE("load path: factors that are not finite or not increasing, and bad steps, are refused", "[property]") {
     const System system = Pendulum{.k = 1}.system();
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-    check_refused([&] { (void)load_path(system, {.factors = {0, nan, 1}}); }, {"load factor 2 = nan", "finite"});
-    check_refused([&] { (void)load_path(system, {.factors = {0, 1, inf}}); }, {"load factor 3 = inf", "finite"});
+    check_refused([&] { (void)equilibrium_path(system, {.factors = {0, nan, 1}}); }, {"load factor 2 = nan", "finite"});
+    check_refused([&] { (void)equilibrium_path(system, {.factors = {0, 1, inf}}); }, {"load factor 3 = inf", "finite"});
     check_refused(
         [&] {
-            (void)load_path(system, {.factors = {0, 0.5, 0.5}});
+            (void)equilibrium_path(system, {.factors = {0, 0.5, 0.5}});
         },
         {"load factor 3 = 0.5", "> 0.5", "strictly increasing"});
-    check_refused([&] { (void)load_path(system, {.factors = {1, 0}}); }, {"load factor 2 = 0", "strictly increasing"});
-    check_refused([&] { (void)load_path(system, {.steps = 0}); }, {"number of steps = 0", ">= 1"});
-    check_refused([&] { (void)load_path(system, {.smallest_step = 0}); }, {"smallest step", "> 0"});
-    check_refused([&] { (void)load_path(system, {.smallest_step = nan}); }, {"smallest step", "nan"});
-    check_refused([&] { (void)load_path(system, {.largest_change = -1}); }, {"largest change", "> 0"});
-    check_refused([&] { (void)load_path(system, {.stability_tolerance = -1}); }, {"loss of stability", ">= 0"});
-    check_refused([&] { (void)load_path(system, {.state = {.rotor_speed = 2}}); }, {"without rotor"});
+    check_refused(
+        [&] {
+            (void)equilibrium_path(system, {.factors = {1, 0}});
+        },
+        {"load factor 2 = 0", "strictly increasing"});
+    check_refused([&] { (void)equilibrium_path(system, {.steps = 0}); }, {"number of steps = 0", ">= 1"});
+    check_refused([&] { (void)equilibrium_path(system, {.smallest_step = 0}); }, {"smallest step", "> 0"});
+    check_refused([&] { (void)equilibrium_path(system, {.smallest_step = nan}); }, {"smallest step", "nan"});
+    check_refused([&] { (void)equilibrium_path(system, {.largest_change = -1}); }, {"largest change", "> 0"});
+    check_refused([&] { (void)equilibrium_path(system, {.stability_tolerance = -1}); }, {"loss of stability", ">= 0"});
+    check_refused([&] { (void)equilibrium_path(system, {.state = {.rotor_speed = 2}}); }, {"without rotor"});
 }
 
 TEST_CASE("load path: no state at the first factor is reported without points", "[analytic]") {
-    const LoadPath path =
-        load_path(Pendulum{.moment = 3 * m * g * length}.system(), {.factors = {1, 2}, .gravity = false});
+    const EquilibriumPath path =
+        equilibrium_path(Pendulum{.moment = 3 * m * g * length}.system(), {.factors = {1, 2}, .gravity = false});
     CHECK_FALSE(path.converged);
     CHECK(path.points.empty());
     CHECK(contains(path.message, "no state at the first load factor 1"));

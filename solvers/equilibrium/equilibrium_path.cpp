@@ -1,4 +1,4 @@
-#include "solvers/equilibrium/load_path.hpp"
+#include "solvers/equilibrium/equilibrium_path.hpp"
 
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
@@ -11,7 +11,7 @@ namespace cardan::solvers {
 
 namespace {
 
-void check(const LoadPathOptions& options) {
+void check(const EquilibriumPathOptions& options) {
     const std::string where = "load path";
     if (options.factors.empty() && options.steps < 1) throw InputError(where, "number of steps", options.steps, ">= 1");
     for (std::size_t i = 0; i < options.factors.size(); ++i) {
@@ -27,7 +27,7 @@ void check(const LoadPathOptions& options) {
     require_not_negative(where, "tolerance of the loss of stability", options.stability_tolerance);
 }
 
-std::vector<double> targets(const LoadPathOptions& options) {
+std::vector<double> targets(const EquilibriumPathOptions& options) {
     if (!options.factors.empty()) return options.factors;
     std::vector<double> factors;
     for (int i = 0; i <= options.steps; ++i) factors.push_back(static_cast<double>(i) / options.steps);
@@ -36,14 +36,14 @@ std::vector<double> targets(const LoadPathOptions& options) {
 
 // Result of one attempt: a point, or the reason why there is none.
 struct Attempt {
-    std::optional<LoadPathPoint> point;
+    std::optional<EquilibriumPathPoint> point;
     std::string reason;
     bool finer_may_help = true;
 };
 
 class Path {
 public:
-    Path(const System& system, const LoadPathOptions& options)
+    Path(const System& system, const EquilibriumPathOptions& options)
         : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {}
 
     Attempt solve(double factor, const Vector& start) const {
@@ -67,11 +67,11 @@ public:
     }
 
     // From the last point of the path; the start is extrapolated along the secant of the last two.
-    Attempt step_to(double factor, const std::vector<LoadPathPoint>& points) const {
-        const LoadPathPoint& last = points.back();
+    Attempt step_to(double factor, const std::vector<EquilibriumPathPoint>& points) const {
+        const EquilibriumPathPoint& last = points.back();
         Vector start = last.at.q;
         if (points.size() > 1) {
-            const LoadPathPoint& other = points[points.size() - 2];
+            const EquilibriumPathPoint& other = points[points.size() - 2];
             start += (factor - last.factor) / (last.factor - other.factor) * (last.at.q - other.at.q);
         }
         Attempt attempt = solve(factor, start);
@@ -88,7 +88,7 @@ public:
     }
 
     // Bisection between two neighbouring points with different numbers of negative pivots.
-    StabilityChange narrow(LoadPathPoint a, LoadPathPoint b) const {
+    StabilityChange narrow(EquilibriumPathPoint a, EquilibriumPathPoint b) const {
         while (options_.stability_tolerance > 0 && b.factor - a.factor > options_.stability_tolerance) {
             // Exactly at the load where the stiffness is singular there may be no solution: then try next to it.
             Attempt attempt;
@@ -106,12 +106,13 @@ public:
 
 private:
     const System& system_;
-    const LoadPathOptions& options_;
+    const EquilibriumPathOptions& options_;
     std::vector<int> unknowns_;
 };
 
-std::string early_end(const LoadPath& path, double tried, const LoadPathOptions& options, const Attempt& attempt) {
-    const LoadPathPoint& last = path.points.back();
+std::string early_end(const EquilibriumPath& path, double tried, const EquilibriumPathOptions& options,
+                      const Attempt& attempt) {
+    const EquilibriumPathPoint& last = path.points.back();
     std::string message =
         text("load path ended at load factor ", last.factor, ", the step to ", tried, " failed: ", attempt.reason);
     if (!attempt.finer_may_help) return message;
@@ -144,11 +145,11 @@ int negative_pivots(const Matrix& stiffness) {
     return static_cast<int>((eigenvalues.array() < limit).count());
 }
 
-LoadPath load_path(const System& system, const LoadPathOptions& options) {
+EquilibriumPath equilibrium_path(const System& system, const EquilibriumPathOptions& options) {
     check(options);
     const Path solver(system, options);
     const std::vector<double> factors = targets(options);
-    LoadPath path;
+    EquilibriumPath path;
 
     const Attempt first = solver.solve(factors.front(), options.state.initial);
     if (!first.point) {

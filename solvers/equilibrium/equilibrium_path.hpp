@@ -14,7 +14,7 @@ namespace cardan::solvers {
 /// Forces::with_load_factor().
 System under_load(const System& system, double factor, bool gravity);
 
-struct LoadPathOptions {
+struct EquilibriumPathOptions {
     /// Load factors to be reached, strictly increasing; the path starts at the first one, solved from `state.initial`.
     /// Empty: 0, 1/steps, 2/steps, ..., 1.
     std::vector<double> factors = {};
@@ -31,7 +31,7 @@ struct LoadPathOptions {
 };
 
 /// One equilibrium on the path.
-struct LoadPathPoint {
+struct EquilibriumPathPoint {
     double factor = 0;    ///< on the loads
     DynamicState at;      ///< q, and with rotation the rate of the spin coordinate
     int iterations = 0;   ///< of Newton's method in the step that led here
@@ -50,10 +50,11 @@ struct StabilityChange {
     double factor() const { return (before + after) / 2; }
 };
 
-/// Result of load_path(): every state that converged, in the order of load factors. The path itself did if the last
-/// factor was reached; otherwise the message says why it ended early, at which factor and what to do.
-struct [[nodiscard]] LoadPath : Outcome {
-    std::vector<LoadPathPoint> points;  ///< requested factors and those of halved steps; the last one is always kept
+/// Result of equilibrium_path(): every state that converged, in the order of load factors. The path itself did if the
+/// last factor was reached; otherwise the message says why it ended early, at which factor and what to do.
+struct [[nodiscard]] EquilibriumPath : Outcome {
+    std::vector<EquilibriumPathPoint>
+        points;  ///< requested factors and those of halved steps; the last one is always kept
     std::optional<StabilityChange> stability_change;
     int failed_steps = 0;  ///< steps that were tried and halved
 };
@@ -66,7 +67,7 @@ struct [[nodiscard]] LoadPath : Outcome {
 /// loops the stiffness is that of the closed machine.
 /// @throws InputError: factors not finite or not strictly increasing, steps < 1, smallest_step or largest_change not
 /// positive, a negative tolerance; and as steady_state().
-LoadPath load_path(const System& system, const LoadPathOptions& options = {});
+EquilibriumPath equilibrium_path(const System& system, const EquilibriumPathOptions& options = {});
 
 /// Number of negative eigenvalues of the symmetric part of a stiffness matrix, scaled to unit diagonal first; those
 /// within 1e-12 of the largest count as zero.
