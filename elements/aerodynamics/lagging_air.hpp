@@ -4,7 +4,7 @@
 
 #include "elements/aerodynamics/dynamic_inflow.hpp"
 #include "elements/aerodynamics/section_air.hpp"
-#include "elements/aerodynamics/unsteady_profile.hpp"
+#include "elements/aerodynamics/unsteady_airfoil.hpp"
 
 #include <Eigen/Core>
 
