@@ -38,8 +38,8 @@ struct Annulus {
 struct Induction {
     double axial = 0, tangential = 0;  ///< a, a'
     double phi = 0;                    ///< rad
-    /// Of the balance, rad, in the mirror image with positive V_x and V_y: there it is phi unless a or a' was limited,
-    /// or changed later.
+    /// Root of the balance, rad, in the mirror image with positive V_x and V_y: there it is phi unless a or a' was
+    /// limited, or changed later.
     double root = 0;
     bool solved = false;  ///< false: no solution, or nothing to solve; see solve_induction()
 };

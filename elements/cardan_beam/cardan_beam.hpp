@@ -84,7 +84,7 @@ struct CardanBeam {
     std::vector<FrameId>
         nodes;        ///< element ends from root to tip, axes of the line there; "<name> node <i>", i = 0 ...
     double mass = 0;  ///< kg
-    /// By modes or masses, over the bodies of all elements, one after the other; empty: none of these.
+    /// Damping by modes or masses, over the bodies of all elements, one after the other; empty: none of these.
     Matrix modal_damping;
     std::vector<std::string> warnings;
     BeamLine line;              ///< the line it was made from

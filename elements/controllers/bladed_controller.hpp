@@ -62,8 +62,8 @@ public:
         Brake brake = {};                 ///< of the shaft
         double yaw_rate = 0;              ///< 48
         std::string message = {};         ///< what the controller says (avcMSG), if anything
-        /// What a user should know, each text once in a run: warnings of the controller (aviFAIL > 0), and demands that
-        /// are not obeyed, because nothing here can: overrides of pitch and torque (55, 56), control of the yaw (102).
+        /// Texts for the user, each once in a run: warnings of the controller (aviFAIL > 0), and demands that are not
+        /// obeyed, because nothing here can: overrides of pitch and torque (55, 56), control of the yaw (102).
         std::vector<std::string> remarks = {};
     };
 

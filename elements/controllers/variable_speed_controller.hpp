@@ -52,7 +52,8 @@ struct VariableSpeedParameters {
     /// Gains over the pitch in the place of those three, linear between the rows, constant beyond the ends.
     std::vector<PitchGains> gains = {};
     double min_pitch = 0, max_pitch = 0;  ///< rad
-    /// In the place of min_pitch, over the filtered speed of the generator; linear between the rows, constant beyond.
+    /// Minimum pitch, in the place of min_pitch, over the filtered speed of the generator; linear between the rows,
+    /// constant beyond.
     std::vector<PitchAtSpeed> min_pitches = {};
     double max_pitch_rate = 0;  ///< rad/s
 

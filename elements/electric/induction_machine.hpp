@@ -30,7 +30,7 @@ struct EquivalentCircuit {
     double rotor_inductance() const;
     double mutual_inductance() const;
     double synchronous_speed() const;  ///< of the shaft at `frequency`, rad/s
-    /// The same machine with its reactances at another frequency.
+    /// A copy with its reactances at another frequency.
     EquivalentCircuit at_frequency(double hertz) const;
 
     /// Steady operation.

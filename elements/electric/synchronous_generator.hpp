@@ -19,7 +19,7 @@ struct PermanentMagnetMachine {
     double magnet_flux = 0;                     ///< V s, peak, through a phase
 };
 
-/// Between the converters: a capacitor, and a resistor that burns what the grid does not take.
+/// Link between the converters: a capacitor, and a resistor that burns what the grid does not take.
 struct DcLink {
     double voltage = 0;            ///< V, that the converter of the grid's side holds
     double capacitance = 0;        ///< F

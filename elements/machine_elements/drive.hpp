@@ -19,7 +19,7 @@ namespace cardan {
 /// followed by Integrator::restart()). A DriveCommand belongs to one simulation at a time, and to one thread.
 class DriveCommand {
 public:
-    /// At rest at a position. @throws InputError: a position that is not finite, limits that are not positive
+    /// Stands at rest at a position. @throws InputError: a position that is not finite, limits that are not positive
     DriveCommand(double position, const TrajectoryLimits& limits);
     /// Starts the trajectory to a new target; whatever was commanded for later than `time` is dropped.
     /// @throws InputError for values that are not finite

@@ -57,7 +57,7 @@ struct RotorLoad {
     double pitch_setting = 0;    ///< added to it, rad
     RotorCurve curve = {};
     std::function<double(double time)> wind = {};  ///< m/s, >= 0; its jumps are breaks of the integration
-    /// In the place of curve and wind: any torque and thrust with their derivatives.
+    /// Any torque and thrust with their derivatives, in the place of curve and wind.
     std::function<RotorCurve::Value(double time, double azimuth, double speed, double pitch)> law = {};
 
     RotorCurve::Value value(const StateView& in) const;

@@ -35,15 +35,16 @@ struct Start {
     Vector q, qd;
 };
 
-/// At rest under gravity, blade 1 up.
+/// State at rest under gravity, blade 1 up.
 /// @param driven  where the driven coordinates are; empty: at zero
 inline Start standing_start(const turbines::Wt600Operation& machine, const Vector& driven = {}) {
     const Vector q = steady_position(machine.turbine, machine.turbine.forces(), 0, 0, driven);
     return {q, Vector::Zero(q.size())};
 }
 
-/// In rotation, blade 1 up: the steady state without gravity and tower shadow, and what gravity bends the standing
-/// machine, as the azimuth changes it. This is periodic but for the square of rotor speed over natural frequencies.
+/// State in rotation, blade 1 up: the steady state without gravity and tower shadow, and what gravity bends the
+/// standing machine, as the azimuth changes it. This is periodic but for the square of rotor speed over natural
+/// frequencies.
 /// @param calm  the same machine without gravity and tower shadow
 inline Start rotating_start(const turbines::Wt600Operation& machine, const turbines::Wt600Operation& calm,
                             double speed) {

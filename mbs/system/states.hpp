@@ -24,7 +24,7 @@ enum class StateKind : std::uint8_t {
 struct StateInfo {
     std::string name;  ///< unique among states, coordinates and inputs: "generator slip", "blade 1 pitch demand"
     std::string unit;  ///< SI: "A", "rad/s"; "1" for a pure number
-    /// What counts as much, > 0, in its unit: the size of tolerances, of steps of differences, of shares in modes.
+    /// Scale of the state, > 0, in its unit: the size of tolerances, of steps of differences, of shares in modes.
     double scale = 0;
     double initial = 0;     ///< value at the start unless another is given
     std::string part = {};  ///< as of coordinates: "generator", "blade"

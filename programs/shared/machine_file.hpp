@@ -45,7 +45,7 @@ void add_machine_options(CommandLine& app, MachineOptions& options);
 void print_notes(const std::vector<turbines::FileNote>& notes, bool all, const char* what = "notes");
 /// Prints notes, and keeps what is left out.
 void print_notes(const std::vector<turbines::FileNote>& notes, MachineOptions& options, const char* what = "notes");
-/// In a line, behind a result: what is left out.
+/// Prints in a line behind a result what is left out.
 void print_left_out(const MachineOptions& options);
 
 /// Reads the machine, prints notes, degrees of freedom and what the tower stands on, and puts what was asked for in the

@@ -19,7 +19,7 @@ namespace cardan::solvers {
 /// however long the run: the channels are read from the file at its end.
 class HistoryRecording {
 public:
-    /// In memory alone.
+    /// Records in memory alone.
     /// @param kept  channels of history(), by name or alias, in the recorder's order; empty: all. A file has all.
     /// @throws InputError for a channel that the recorder does not have
     explicit HistoryRecording(const std::string& title, const Recorder& recorder,

@@ -95,7 +95,8 @@ struct StateTerms {
     }
 };
 
-/// In other units: equations multiplied by `rows`, x = rows x', s = states s'. The scales of the states stay.
+/// Rescales the terms to other units: equations multiplied by `rows`, x = rows x', s = states s'. The scales of the
+/// states stay.
 void rescale(StateTerms& terms, const Vector& rows, const Vector& states);
 
 /// Distance of terms from others, relative to these, states over their scales; 0 without states.

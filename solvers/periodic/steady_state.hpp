@@ -71,8 +71,8 @@ struct [[nodiscard]] PeriodicSteadyState : Outcome {
     /// left less than twice as much of the states: they follow kinks, as of airfoils' polars.
     bool needs_more_harmonics = false;
     Matrix multipliers = {};  ///< of the loops, Loops::equations(); a row each, as `coefficients`
-    /// With loops, how often each coordinate turns in a revolution, beside its series: q = turns psi + ..., as that of
-    /// a rod against its crank. Empty: none does.
+    /// Turns of each coordinate in a revolution, with loops, beside its series: q = turns psi + ..., as that of a rod
+    /// against its crank. Empty: none does.
     Vector turns = {};
 
     int harmonics() const { return static_cast<int>(coefficients.cols() / 2); }

@@ -30,8 +30,8 @@ public:
     static Motion constant_rate(double position, double rate, double since = 0);
     /// position + rate (t - since) + acceleration (t - since)^2 / 2.
     static Motion constant_acceleration(double position, double rate, double acceleration, double since);
-    /// At rest at `from` until t0 and at `to` from t1 on, in between the quintic 10 x^3 - 15 x^4 + 6 x^5: continuous
-    /// acceleration, peak velocity 15/8 of the mean.
+    /// A motion at rest at `from` until t0 and at `to` from t1 on, in between the quintic 10 x^3 - 15 x^4 + 6 x^5:
+    /// continuous acceleration, peak velocity 15/8 of the mean.
     static Motion ramp(double from, double to, double t0, double t1);
     /// A ramp of the rate, from `rate_from` to `rate_to`; the position is `position` at t0. For start-up and shut-down
     /// of a rotor. The jerk is continuous.

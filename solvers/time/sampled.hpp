@@ -55,8 +55,8 @@ struct SampledState {
     long next = 0;                    ///< sample to come
     Vector pending = {};              ///< what a delayed one puts out then
     std::vector<double> memory = {};  ///< of SampledController::save
-    /// Of each SampledController::drives d_k-2, d_k-1, d_k, as positions of the coordinate: before the
-    /// first sample that of the start.
+    /// Samples of each SampledController::drives: d_k-2, d_k-1, d_k, as positions of the coordinate: before the first
+    /// sample that of the start.
     std::vector<double> followed = {};
 };
 

@@ -26,9 +26,9 @@ namespace cardan::turbines {
 struct AirLags;
 
 /// Options of unsteady aerodynamics: states of first order that lag behind the motion.
-struct UnsteadyAeroOptions {
-    /// In the place of the blade's polars, one for each; those of cylinders and of the like lag in nothing. Empty:
-    /// airfoils are steady.
+struct AirLagOptions {
+    /// Unsteady airfoils in the place of the blade's polars, one for each; those of cylinders and of the like lag in
+    /// nothing. Empty: airfoils are steady.
     std::vector<UnsteadyAirfoil> airfoils = {};
     bool dynamic_inflow =
         false;  ///< DynamicInflow in every section but those without balance of momentum, root and tip
@@ -83,7 +83,8 @@ public:
     /// support().element().
     Turbine on(const Turbine& turbine) const;
 
-    /// At a state; forces per length, as in a rotor that does not bend (RotorAir): by blade, from root to tip.
+    /// Flow and forces of the sections at a state; forces per length, as in a rotor that does not bend (RotorAir): by
+    /// blade, from root to tip.
     std::vector<std::vector<SectionAir>> sections(const ElementView& at) const;
     /// Force and moment of the air on the rotor about the rotor's centre, in axes of the shaft that do not turn: x
     /// downwind along the shaft, z up.
@@ -104,8 +105,8 @@ public:
     const Wind& wind() const;
     const TowerAir& support() const;   ///< drag of tower and nacelle
     bool has_tower_influence() const;  ///< the tower changes the wind at the sections
-    /// Of a revolution, that means and harmonics need: with the tower's influence 144, for it is over within a few
-    /// degrees (blades that are 120 deg apart see the tower from the same azimuths), else 1.
+    /// Azimuths of a revolution that means and harmonics need: with the tower's influence 144, for it is over within a
+    /// few degrees (blades that are 120 deg apart see the tower from the same azimuths), else 1.
     int min_azimuths() const;
 
 private:

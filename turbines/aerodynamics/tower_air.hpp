@@ -40,7 +40,7 @@ public:
     /// Exact derivatives; no allocation. Loads do the same work on the beam's rigid segments as spread along them.
     ForceElement element() const;
 
-    /// At a state, base axes: forces per length at the rows of the table, N/m, from the foot upwards.
+    /// Forces at a state, base axes: forces per length at the rows of the table, N/m, from the foot upwards.
     std::vector<Vec3> tower(const StateView& at) const;
     Vec3 nacelle(const StateView& at) const;      ///< force on it, N
     double work_rate(const StateView& at) const;  ///< of the drag on all motions, W

@@ -112,7 +112,7 @@ struct Controller {
     std::filesystem::path library = {};  ///< shared library with Bladed's function DISCON
     std::filesystem::path input = {};    ///< file that the library reads
     std::string output = "cardan";       ///< prefix of files that the library writes
-    /// Between its calls, s; none: that of the model for its own library, else 0.0125.
+    /// Time between the controller's calls, s; none: that of the model for its own library, else 0.0125.
     std::optional<double> period = {};
     /// Electrical over mechanical power, which is recorded and measured; none: the machine's, else 1.
     std::optional<double> generator_efficiency = {};
@@ -248,7 +248,7 @@ struct LinearModelSettings {
     /// The balanced model is right up to here, Hz, and so is the mesh; none: as for campbell().
     std::optional<double> max_frequency_hz = {};
     bool balanced = true;  ///< a balanced model is made, which takes most of the time where the air has many states
-    /// Of the balanced model: of every input and output, relative to its largest response; its order follows.
+    /// Error of the balanced model: of every input and output, relative to its largest response; its order follows.
     double error = 0.05;
     int order = 0;         ///< of the balanced model in the place of its error; 0: by that
     double azimuth = 0;    ///< rad, nearest to which a periodic model is given as a constant one

@@ -21,9 +21,9 @@ struct Aerodynamics {
     RotorAirOptions options = {};
     double density = 1.225;  ///< kg/m^3
     /// Drag of tower and nacelle, tower influence. Heights as the file has them: support_on() sets the tower's foot.
-    TowerNacelleAero support = {};
-    /// In the place of the blade's polars, one for each, where the flow lags behind the motion
-    /// (UnsteadyAeroOptions::airfoils); empty: there are no data of it.
+    AeroSupport support = {};
+    /// Unsteady airfoils in the place of the blade's polars, one for each, where the flow lags behind the motion
+    /// (AirLagOptions::airfoils); empty: there are no data of it.
     std::vector<UnsteadyAirfoil> unsteady_airfoils = {};
     /// Sweep of the aerodynamic centres behind the pitch axis, m, for all that asks for the torsion of the blade, where
     /// `blade` has them on that axis for the sake of comparison; empty: those of `blade` hold.
@@ -39,9 +39,9 @@ struct Site {
     double density = 1.225;                    ///< of the air, kg/m^3, where a file of airfoils says "default"
     double viscosity = standard_viscosity;     ///< of the air, kinematic, m^2/s, where a file says "default"
     double gravity = units::standard_gravity;  ///< m/s^2, downward, in analyses with gravity
-    /// Of the tower's foot above the ground or the still water, m, as the model counts heights; none: as the machine
-    /// stands.
-    std::optional<double> tower_base = std::nullopt;
+    /// Height of the tower base above the ground or the still water, m, as the model counts heights; none: as the
+    /// machine stands.
+    std::optional<double> tower_foot = std::nullopt;
 };
 
 /// Operation of a machine, as far as its source says so; 0 and empty: it does not.

@@ -1,5 +1,4 @@
-/// @file
-/// From a description to a system: tower, yaw joint, nacelle, tilt joint, drive train, hub, blades.
+/// @file Assembly of a system from a description: tower, yaw joint, nacelle, tilt joint, drive train, hub, blades.
 #pragma once
 
 #include "elements/machine_elements/coordinate_force.hpp"

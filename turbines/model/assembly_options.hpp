@@ -35,8 +35,8 @@ struct AssemblyOptions {
     std::optional<double> delta =
         {};  ///< hinge position in tower and blades; empty: suits the partition; see CardanBeamOptions
     Partition partition = Partition::mean_difference;  ///< of the elements of tower and blades
-    /// Of the blades, where the sections half-way along have that compliance; else condensed, as that of the tower.
-    /// Torsion of both is free where the sections have it.
+    /// Extension of the blades, where the sections half-way along have that compliance; else condensed, as that of the
+    /// tower. Torsion of both is free where the sections have it.
     bool extension = true;
     double pitch = 0;                ///< pitch setting of all blades, leading edge upwind positive, rad
     Vec3 gravity = Vec3::Zero();     ///< ground axes, m/s^2

@@ -63,12 +63,12 @@ struct NacelleDescription {
 /// (fast side times the gear ratio squared).
 struct DriveTrainDescription {
     double gear_ratio = 1;
-    double generator_inertia = 0;                 ///< fast side, kg m^2; not zero if one of the shafts is elastic
-    double gearbox_inertia = 0;                   ///< slow side, kg m^2; if it is zero one of the shafts must be rigid
-    JointSupport high_speed_shaft = rigid_joint;  ///< fast side, generator - gearbox; spring or rigid
-    JointSupport main_shaft;                      ///< slow side, gearbox - hub; spring or rigid
-    /// What else turns with the generator's coordinate: x downwind along the shaft, z up at azimuth 0, origin on the
-    /// tower axis.
+    double generator_inertia = 0;            ///< fast side, kg m^2; not zero if one of the shafts is elastic
+    double gearbox_inertia = 0;              ///< slow side, kg m^2; if it is zero one of the shafts must be rigid
+    Bearing high_speed_shaft = rigid_joint;  ///< fast side, generator - gearbox; spring or rigid
+    Bearing main_shaft;                      ///< slow side, gearbox - hub; spring or rigid
+    /// Inertia of what else turns with the generator's coordinate: x downwind along the shaft, z up at azimuth 0,
+    /// origin on the tower axis.
     RigidInertia shaft;
     /// Role of the generator's azimuth. Free: it turns as torques make it. Driven: it is prescribed, as of a rotor at
     /// constant speed or a locked one. AssemblyOptions::spin goes before it.
@@ -119,15 +119,15 @@ struct BladeDescription {
     /// About the pitch axis, beside that of the sections, kg m^2: of what turns with the blade in its bearing, or of a
     /// blade whose sections have none. It resists the pitch alone (an armature); without effect on a rigid bearing.
     double pitch_inertia = 0;
-    /// In place of a drive: then the bearing is a free joint, or has a spring and friction of its own.
+    /// Linkage in the place of a drive: then the bearing is a free joint, or has a spring and friction of its own.
     std::optional<PitchLinkage> linkage = {};
     double cone = 0;           ///< blade axis out of the rotor plane, tips downwind positive, rad
     double pitch_setting = 0;  ///< beside that of the assembly, leading edge upwind positive, rad
     double first_flap_damping =
         0;                     ///< damping ratio of the first flap mode of the clamped blade, stiffness-proportional
     BeamDamping damping = {};  ///< in its place or beside it
-    /// It does not deform: its coordinates stay at zero, and its stiffness and damping are not used. One element unless
-    /// the options of the assembly say otherwise.
+    /// The blade does not deform: its coordinates stay at zero, and its stiffness and damping are not used. One element
+    /// unless the options of the assembly say otherwise.
     bool rigid = false;
 };
 

@@ -15,8 +15,8 @@ namespace cardan::turbines {
 /// A blade or a tower.
 struct ElastoDynBeam {
     BeamLine line;
-    /// By modes of the clamped beam: for a blade flap (about y) and edge (about z), for a tower side-side (about y) and
-    /// fore-aft (about z).
+    /// Structural damping by modes of the clamped beam: for a blade flap (about y) and edge (about z), for a tower
+    /// side-side (about y) and fore-aft (about z).
     BeamDamping damping;
     std::vector<FileNote> notes;
     std::string source;  ///< text of the file

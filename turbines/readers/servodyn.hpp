@@ -10,10 +10,11 @@
 namespace cardan::turbines {
 
 struct ServoDyn {
-    JointSupport yaw = rigid_joint;  ///< spring and damper of the yaw drive
-    /// Of the generator on its own shaft, rad/s; 0: not given. That of the torque law (VS_RtGnSp), of an induction
-    /// generator at rated slip (SIG_SySp) or without slip (TEC_Freq, TEC_NPol), or of a ROSCO controller (PC_RefSpd of
-    /// DLL_InFile). A number that three or more entries of generators have is a placeholder and not given.
+    Bearing yaw = rigid_joint;  ///< spring and damper of the yaw drive
+    /// Rated speed of the generator on its own shaft, rad/s; 0: not given. That of the torque law (VS_RtGnSp), of an
+    /// induction generator at rated slip (SIG_SySp) or without slip (TEC_Freq, TEC_NPol), or of a ROSCO controller
+    /// (PC_RefSpd of DLL_InFile). A number that three or more entries of generators have is a placeholder and not
+    /// given.
     double rated_generator_speed = 0;
     double min_generator_speed = 0;  ///< that of an induction generator without slip
     std::string speed_source;        ///< the keyword and its file
@@ -24,8 +25,8 @@ struct ServoDyn {
     ModelController controller = {};  ///< library, input and period if it acts (PCMode or VSContrl 5)
     std::vector<FileNote> notes;
     std::string source;  ///< text of the file
-    /// Of a ROSCO controller, else the rated power of the torque law (VS_RtTq at VS_RtGnSp) or of an induction
-    /// generator (SIG_RtTq at rated slip), on the generator's shaft.
+    /// Operation: rated power of a ROSCO controller, else that of the torque law (VS_RtTq at VS_RtGnSp) or of an
+    /// induction generator (SIG_RtTq at rated slip), on the generator's shaft.
     FileOperation operation = {};
 };
 

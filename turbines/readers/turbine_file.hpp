@@ -101,7 +101,7 @@ struct ModelController {
     double generator_efficiency = 0;  ///< electrical over mechanical power, 0 ... 1
     bool individual_pitch = false;    ///< it demands the pitch of every blade (Ptch_Cntrl of ServoDyn)
     ControllerGains gains = {};       ///< of a ROSCO controller's file
-    /// Where no controller sets the torque: an induction generator near its synchronous speed (GenModel of ServoDyn).
+    /// Induction generator, where no controller sets the torque, near its synchronous speed (GenModel of ServoDyn).
     SlippingGenerator generator = {};
     TorqueLaw torque_law = {};  ///< without a controller, of a generator of variable speed (VSContrl 1)
 };

@@ -19,8 +19,8 @@ struct WindioAir {
     double density = 1.225;  ///< kg/m^3
     std::vector<FileNote> notes;
     std::string source;  ///< text of the file
-    /// In the place of the polars of the blade, one for each, where air is to lag: UnsteadyAeroOptions::airfoils. The
-    /// files have no data of it: unsteady_airfoils().
+    /// Unsteady airfoils in the place of the polars of the blade, one for each, where air is to lag:
+    /// AirLagOptions::airfoils. The files have no data of it: unsteady_airfoils().
     std::vector<UnsteadyAirfoil> airfoils = {};
 };
 

@@ -15,9 +15,9 @@ namespace cardan::detail {
 /// branches, v of the sources and u of the capacitors, and d lambda/dt = F_j j + F_s v - F_c u - dphi/dq qd.
 class CircuitEquations {
 public:
-    static constexpr int max = 24;  ///< links that are windings, capacitors, sources, coordinates
-    using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max, 1>;
-    using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max, max>;
+    static constexpr int max_size = 24;  ///< links that are windings, capacitors, sources, coordinates
+    using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_size, 1>;
+    using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
 
     /// A term of the inductances, over the links.
     struct Term {

@@ -73,7 +73,7 @@ public:
     /// One accepted step. @param horizon  the next output time: a scale for the first step, not a limit
     /// @return false: no step was possible, failure() says why. Exceptions of user functions propagate.
     bool step(double horizon);
-    /// From what the present state has been computed; for a multistep method: nothing to repeat.
+    /// Data from which the present state has been computed; for a multistep method: nothing to repeat.
     const MethodState& origin() const { return origin_; }
     /// The state at which go_on() is about to be called; for a multistep method: nothing to repeat.
     MethodState present(double time, const Vector& x) const;

@@ -56,7 +56,8 @@ struct AirDerivativeScratch {
     std::vector<InfluenceSlopes> influence;  ///< of all sections, if the tower changes the wind there
     std::vector<LaggingSlopes> lagging;      ///< of all sections, if something lags
     std::vector<Columns6> by_q, by_qd;       ///< of the sections of a blade: force, moment per length
-    /// Of all sections, by what they see of the wake: its angle, its blade's sine, the share of the induction.
+    /// Derivatives of all sections by what they see of the wake: its angle, its blade's sine, the share of the
+    /// induction.
     std::vector<Eigen::Matrix<double, 6, 3>> by_wake;
     Columns6 blade_q, blade_qd, trunk_q, trunk_qd;             ///< moment about the base's origin, force; by coordinate
     Eigen::Matrix<double, 3, Eigen::Dynamic> mean_q, mean_qd;  ///< of the mean wind
@@ -102,7 +103,7 @@ public:
     const Vec3& shaft() const { return shaft_; }
     const Vec3& hub() const { return hub_; }
     double speed() const;  ///< of the rotor about the shaft, rad/s
-    /// Of a wrench about a place that is fixed to a body, W.
+    /// Power of a wrench about a place that is fixed to a body, W.
     double power(const Wrench& wrench, int body, const Vec3& place) const;
     double density() const { return wind_.density; }
     void rates(VectorOut out) const;  ///< of the states

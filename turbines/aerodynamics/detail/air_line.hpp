@@ -67,7 +67,7 @@ private:
     std::vector<Vec3> offsets_;
 };
 
-/// By body, descending: derivatives are gathered from the tip down.
+/// Order by body, descending: derivatives are gathered from the tip down.
 void sort_by_body(std::vector<AirPoint>& points);
 
 }  // namespace cardan::turbines

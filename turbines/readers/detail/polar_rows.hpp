@@ -14,8 +14,9 @@ struct PolarColumns {
     int angle, lift, drag, moment;
 };
 
-/// From -180 to 180 deg: a table from 0 to 360 deg is turned, one that ends before keeps the values of its ends beyond
-/// them, as AeroDyn does with a warning; a row that repeats the one before counts once. All this is noted.
+/// A polar's rows from -180 to 180 deg: a table from 0 to 360 deg is turned, one that ends before keeps the values of
+/// its ends beyond them, as AeroDyn does with a warning; a row that repeats the one before counts once. All this is
+/// noted.
 /// @param notes  is added to
 /// @throws ParseError for rows without these columns, angles that do not ascend or go beyond
 Polar::Table polar_of_rows(const OpenFastFile& file, const std::vector<OpenFastFile::Row>& rows,
