@@ -23,7 +23,7 @@ struct MeshOptions {
     double max_hz = 0;       ///< frequencies up to here count, Hz; 0: usual_frequency()
     double rotor_speed = 0;  ///< highest of the analysis, rad/s: the blades' centrifugal limit is at least twice that;
                              ///< 0: the description's
-    int max_elements = 24;   ///< per beam, >= 1
+    int max_elements = 24;   ///< elements per beam, >= 1
 };
 
 /// Options by which a description is meshed and analysed.
