@@ -1,5 +1,6 @@
 #include "solvers/algebra/real_eigen.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "mbs/base/sizes.hpp"
 
 #include <algorithm>
@@ -19,20 +20,38 @@ Complex at_least(Complex pivot, double small) {
 
 }  // namespace
 
+struct RealEigen::Hessenberg {
+    Hessenberg(Index size, Index rows) : form(size), row(rows) {}
+
+    // T = Q^T A Q, Z := Z Q
+    void reduce(const Matrix& A, Matrix& T, Matrix& Z) {
+        form.compute(A);
+        T = form.matrixH();
+        form.matrixQ().applyThisOnTheRight(Z, row);
+    }
+
+    Eigen::HessenbergDecomposition<Matrix> form;
+    Eigen::RowVectorXd row;
+};
+
 RealEigen::RealEigen(Index size, Index rows)
-    : hessenberg_(size), T_(size, size), Z_(rows, size), vectors_(rows, size), y_(size, 2) {
+    : hessenberg_(std::make_unique<Hessenberg>(size, rows)),
+      T_(size, size),
+      Z_(rows, size),
+      vectors_(rows, size),
+      y_(size, 2) {
     values_.reserve(static_cast<std::size_t>(size));
 }
+
+RealEigen::~RealEigen() = default;
 
 bool RealEigen::compute(const Matrix& A) {
     const Index n = A.rows();
     require_size("eigenvalues", "A", A, T_.rows(), T_.rows());
     values_.clear();
     if (n == 0) return true;
-    // The first rows of Q.
-    T_ = A;
-    Z_.setIdentity();
-    hessenberg_.reduce(T_, Z_);
+    Z_.setIdentity();  // the first rows of Q
+    hessenberg_->reduce(A, T_, Z_);
     if (!schur_.reduce(T_, Z_)) return false;
     small_ = std::numeric_limits<double>::epsilon() * std::max(T_.cwiseAbs().maxCoeff(), 1e-140);
     for (Index j = 0; j < n; ++j) {

@@ -3,16 +3,16 @@
 #pragma once
 
 #include "mbs/base/types.hpp"
-#include "solvers/algebra/hessenberg.hpp"
 #include "solvers/algebra/schur.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace cardan::solvers {
 
-/// A x = mu x for general real matrices (entries from 1e-140 to 1e140) of one size: Hessenberg form, real Schur form,
-/// back substitution. Backward stable, without balancing: ||A||-relative errors of the order of rounding. Only the
-/// first rows of every eigenvector are computed (for a state matrix the positions), which saves half of the
+/// A x = mu x for general real matrices (entries from 1e-140 to 1e140) of one size: Hessenberg form (Eigen's), real
+/// Schur form, back substitution. Backward stable, without balancing: ||A||-relative errors of the order of rounding.
+/// Only the first rows of every eigenvector are computed (for a state matrix the positions), which saves half of the
 /// transformations.
 ///
 /// Why this and not Eigen or LAPACK: see docs/dependencies.md.
@@ -20,6 +20,9 @@ class RealEigen {
 public:
     /// @param rows  number of eigenvector rows wanted, 0 ... size
     RealEigen(Eigen::Index size, Eigen::Index rows);
+    RealEigen(const RealEigen&) = delete;
+    RealEigen& operator=(const RealEigen&) = delete;
+    ~RealEigen();
 
     /// One real eigenvalue, or the member of a complex pair with positive imaginary part.
     struct Value {
@@ -44,7 +47,8 @@ private:
     Complex y(Eigen::Index i) const { return {y_(i, 0), y_(i, 1)}; }
     void set_y(Eigen::Index i, Complex value) { y_(i, 0) = value.real(), y_(i, 1) = value.imag(); }
 
-    Hessenberg hessenberg_;
+    struct Hessenberg;  // Eigen's, whose header takes long to compile
+    std::unique_ptr<Hessenberg> hessenberg_;
     SchurIteration schur_;
     Matrix T_, Z_, vectors_;
     Eigen::Matrix<double, Eigen::Dynamic, 2> y_;  // eigenvector of T: real and imaginary part

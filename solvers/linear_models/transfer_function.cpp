@@ -1,16 +1,19 @@
 #include "solvers/linear_models/transfer_function.hpp"
 
+#include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
-#include "solvers/algebra/hessenberg.hpp"
 
 namespace cardan::solvers {
 
-TransferFunction::TransferFunction(const StateMatrices& model) : T_(model.A), D_(model.D) {
+TransferFunction::TransferFunction(const StateMatrices& model) : D_(model.D) {
     const Eigen::Index n = model.A.rows(), outputs = model.C.rows();
     Matrix beside(outputs + model.B.cols(), n);  // times Q
     beside << model.C, model.B.transpose();
-    if (n > 0) Hessenberg(n).reduce(T_, beside);
-    T_.transposeInPlace();
+    if (n > 0) {
+        const Eigen::HessenbergDecomposition<Matrix> form(model.A);
+        T_ = form.matrixH().transpose();
+        beside *= form.matrixQ();
+    }
     C_ = beside.topRows(outputs);
     B_ = beside.bottomRows(model.B.cols()).transpose();
 }

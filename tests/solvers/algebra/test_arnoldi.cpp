@@ -1,4 +1,5 @@
 // The largest eigenvalues of operators: closed forms, multiple and defective eigenvalues, against the dense solver.
+#include "mbs/base/decompositions.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/arnoldi.hpp"
 #include "solvers/algebra/real_eigen.hpp"
