@@ -4,7 +4,6 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "solvers/algebra/dense.hpp"
-#include "solvers/algebra/detail/complex_rotation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -86,10 +85,9 @@ void ProductEigen::rotate(Index space, Index i, const Rotation& G) {
     ComplexMatrix& after = entry(T_, space);
     ComplexMatrix& before = entry(T_, (space + p - 1) % p);
     const Index from = std::max<Index>(i - 1, 0), rows = std::min(n, i + 3);
-    ComplexMatrix& Q = entry(Q_, space);
-    rotate_rows(n - from, G, &before(i, from), n);
-    rotate_columns(rows, G, &after(0, i), &after(0, i + 1));
-    rotate_columns(n, G, &Q(0, i), &Q(0, i + 1));
+    before.rightCols(n - from).applyOnTheLeft(i, i + 1, G.adjoint());
+    after.topRows(rows).applyOnTheRight(i, i + 1, G);
+    entry(Q_, space).applyOnTheRight(i, i + 1, G);
 }
 
 // After a rotation of space 0 the triangular factors are made triangular again, one after the other. A zero on a

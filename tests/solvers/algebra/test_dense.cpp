@@ -1,7 +1,6 @@
 // Dense kernels against Eigen's.
 #include "mbs/base/decompositions.hpp"
 #include "solvers/algebra/dense.hpp"
-#include "solvers/algebra/detail/complex_rotation.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
 
@@ -53,27 +52,6 @@ TEST_CASE("dense kernels: solutions of all sizes have the residual of Eigen's", 
     }
 }
 
-TEST_CASE("dense kernels: complex rotations of columns and rows are Eigen's", "[solvers][property]") {
-    Random random(3);
-    for (const Eigen::Index n : {2, 3, 8, 13}) {
-        const ComplexMatrix A = random_matrix(random, n, n) + Complex(0, 1) * random_matrix(random, n, n);
-        const Complex p(0.3, -0.7), q(-1.1, 0.4);
-        Eigen::JacobiRotation<Complex> G;
-        G.makeGivens(p, q);
-        ComplexMatrix own = A, other = A;
-        rotate_columns(n, G, &own(0, 0), &own(0, 1));
-        other.applyOnTheRight(0, 1, G);
-        CHECK((own - other).norm() < 1e-15 * A.norm());
-        rotate_rows(n - 1, G, &own(n - 2, 1), n);
-        other.rightCols(n - 1).applyOnTheLeft(n - 2, n - 1, G.adjoint());
-        CHECK((own - other).norm() < 1e-15 * A.norm());
-        // A general c, which is not what makeGivens() returns for real numbers.
-        const Eigen::JacobiRotation<Complex> turned(Complex(0.36, 0.48), Complex(-0.64, 0.48));
-        rotate_columns(n, turned, &own(0, 0), &own(0, 1));
-        other.applyOnTheRight(0, 1, turned);
-        CHECK((own - other).norm() < 1e-15 * A.norm());
-    }
-}
 TEST_CASE("dense kernels: the transposed equations are solved with the same factors", "[property]") {
     for (const Eigen::Index n : {1, 7, 60, 190}) {
         Matrix A = Matrix::Random(n, n);
