@@ -72,7 +72,7 @@ public:
 
 private:
     static LagSlope state(double value, int i) { return LagSlope::variable(value, LaggingSlopes::first_state + i); }
-    void set(int row, const LagSlope& value) { out_.by.row(row) = value.slopes.matrix().transpose(); }
+    void set(int row, const LagSlope& value) { out_.by.row(row) = value.slopes.transpose(); }
 
     Factors<LagSlope> factors() {
         const bool dynamic = lags_.wake == WakeLag::dynamic;

@@ -94,8 +94,7 @@ SectionSlopes section_slopes(const Annulus& annulus, const SectionAir& at, const
         Slope::variable(wake.lever, SectionSlopes::wake_lever), at.induction.solved && options.skew != Skew::none);
     const Loads<Slope> loads = loads_of(annulus, inflow.angle, reaching(inflow, factors), density);
     SectionSlopes out;
-    out.by << loads.normal.slopes.matrix().transpose(), loads.driving.slopes.matrix().transpose(),
-        loads.moment.slopes.matrix().transpose();
+    out.by << loads.normal.slopes.transpose(), loads.driving.slopes.transpose(), loads.moment.slopes.transpose();
     return out;
 }
 

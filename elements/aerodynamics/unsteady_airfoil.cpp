@@ -223,10 +223,10 @@ UnsteadyAirfoil::Slopes UnsteadyAirfoil::slopes(const States& x, const AirfoilMo
     Slopes out;
     const auto rates = rates_of(at);
     for (std::size_t i = 0; i < rates.size(); ++i)
-        out.rates.row(static_cast<Eigen::Index>(i)) = rates[i].slopes.matrix().transpose();
+        out.rates.row(static_cast<Eigen::Index>(i)) = rates[i].slopes.transpose();
     const auto coefficients = coefficients_of(at);
     for (std::size_t i = 0; i < coefficients.size(); ++i)
-        out.coefficients.row(static_cast<Eigen::Index>(i)) = coefficients[i].slopes.matrix().transpose();
+        out.coefficients.row(static_cast<Eigen::Index>(i)) = coefficients[i].slopes.transpose();
     return out;
 }
 

@@ -1,5 +1,6 @@
 #include "elements/cardan_beam/hinge_law.hpp"
 
+#include "mbs/base/dual.hpp"
 #include "mbs/base/entry.hpp"
 
 #include <algorithm>
@@ -9,38 +10,7 @@ namespace cardan {
 namespace {
 
 // A function of the element's coordinates (u, phi, ay1, ay2, az1, az2) with its first and second derivatives.
-struct Jet {
-    double value = 0;
-    Vec6 gradient = Vec6::Zero();
-    Mat6 hessian = Mat6::Zero();
-
-    static Jet variable(const Vec6& q, ElementCoordinate kind) {
-        const auto i = static_cast<Eigen::Index>(kind);
-        return {q(i), Vec6::Unit(i), Mat6::Zero()};
-    }
-};
-
-Jet operator+(const Jet& a, const Jet& b) {
-    return {a.value + b.value, a.gradient + b.gradient, a.hessian + b.hessian};
-}
-Jet operator*(double c, const Jet& a) {
-    return {c * a.value, c * a.gradient, c * a.hessian};
-}
-Jet operator*(const Jet& a, const Jet& b) {
-    const Mat6 cross_terms = a.gradient * b.gradient.transpose();
-    return {a.value * b.value, a.value * b.gradient + b.value * a.gradient,
-            a.value * b.hessian + b.value * a.hessian + cross_terms + cross_terms.transpose()};
-}
-// f(a), from f and its derivatives at a.
-Jet chain(const Jet& a, double f, double df, double ddf) {
-    return {f, df * a.gradient, df * a.hessian + ddf * a.gradient * a.gradient.transpose()};
-}
-Jet sin(const Jet& a) {
-    return chain(a, std::sin(a.value), std::cos(a.value), -std::sin(a.value));
-}
-Jet cos(const Jet& a) {
-    return chain(a, std::cos(a.value), -std::sin(a.value), -std::cos(a.value));
-}
+using Jet = Dual<6, 2>;
 
 // Theta / sin Theta as a function of c = cos Theta; with w = 1 - c it is the sum of n! / (2n + 1)!! w^n.
 Jet angle_over_sine(const Jet& c) {
@@ -60,7 +30,7 @@ Jet angle_over_sine(const Jet& c) {
         df = (c.value * f - 1) / s2;
         ddf = (f + 3 * c.value * df) / s2;
     }
-    return chain(c, f, df, ddf);
+    return c.chain(f, df, ddf);
 }
 
 struct Bend {
@@ -76,13 +46,16 @@ Bend swing(const Jet& a, const Jet& b) {
 
 Bend turned(const Bend& bend, const Jet& angle) {
     const Jet c = cos(angle), s = sin(angle);
-    return {c * bend.y + s * bend.z, c * bend.z + -1.0 * (s * bend.y)};
+    return {c * bend.y + s * bend.z, c * bend.z - s * bend.y};
 }
 
 // The arguments of the springs in the order of ElementCoordinate.
 std::array<Jet, 6> arguments(const HingeLaw& law, const Vec6& q) {
     using enum ElementCoordinate;
-    const auto at = [&](ElementCoordinate kind) { return Jet::variable(q, kind); };
+    const auto at = [&](ElementCoordinate kind) {
+        const auto i = static_cast<int>(kind);
+        return Jet::variable(q(i), i);
+    };
     Bend first{at(ay1), at(az1)}, second{at(ay2), at(az2)};
     if (law.isotropic) {
         first = swing(first.y, first.z);
@@ -92,7 +65,7 @@ std::array<Jet, 6> arguments(const HingeLaw& law, const Vec6& q) {
         // Hinges at the Gauss points see this share of the element's torsion, each from its own end.
         const Jet share = delta_gauss * at(phi);
         first = turned(first, share);
-        second = turned(second, -1.0 * share);
+        second = turned(second, -share);
     }
     return {at(u), at(phi), first.y, second.y, first.z, second.z};
 }
@@ -157,7 +130,7 @@ Response respond(const HingeLaw& law, const HingeLawElement& element, const Coor
     for (Eigen::Index i = 0; i < n; ++i) {
         const Jet& jet = entry(y, kind(i));
         values(i) = jet.value;
-        for (Eigen::Index j = 0; j < n; ++j) Y(i, j) = jet.gradient(kind(j));
+        for (Eigen::Index j = 0; j < n; ++j) Y(i, j) = jet.slopes(kind(j));
     }
     const Response spring = springs(element, values);
     Response r{spring.energy, Y.transpose().lazyProduct(spring.force),

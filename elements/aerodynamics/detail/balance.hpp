@@ -3,8 +3,8 @@
 /// aerodynamics: not installed.
 #pragma once
 
-#include "elements/aerodynamics/detail/dual.hpp"
 #include "elements/aerodynamics/momentum.hpp"
+#include "mbs/base/dual.hpp"
 #include "mbs/base/types.hpp"
 
 #include <algorithm>
