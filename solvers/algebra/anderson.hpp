@@ -8,6 +8,9 @@ namespace cardan::solvers {
 
 /// Of the last iterations of x := x + f(x) those are combined that cancel the present f best: in linear problems as
 /// fast as GMRES, in others often where the plain iteration would not converge.     [Anderson 1965; Walker and Ni 2011]
+///
+/// KINSOL has the same (KINSetMAA), but the loop is KINSOL's then; those that use this keep the best state and give up
+/// when it has not improved for some steps.
 class Anderson {
 public:
     /// @param size   of x

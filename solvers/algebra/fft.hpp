@@ -10,7 +10,7 @@
 namespace cardan::solvers {
 
 /// X_k = sum_j x_j exp(-2 pi i j k/n), k = 0 ... n/2, for one length n, in O(n log n) for every n (lengths with a large
-/// prime factor by convolution). Not safe for use by several threads at once.
+/// prime factor by convolution, which kissfft, that is Eigen's, lacks). Not safe for use by several threads at once.
 class RealFourier {
 public:
     /// @throws InputError for a size of 0 or beyond 2^28

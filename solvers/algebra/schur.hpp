@@ -10,8 +10,12 @@ namespace cardan::solvers {
 
 /// T = Q^T H Q by Francis' implicit double-shift QR algorithm [Golub and Van Loan, Matrix Computations, 7.5]. The
 /// reflectors of a step are computed in a small window that follows the bulge along the diagonal; they are applied to
-/// the rest of the matrix in batches, on parts that stay in the L1 cache, which is two to three times faster than one
-/// by one.
+/// the rest of the matrix in batches, on parts that stay in the L1 cache.
+///
+/// Eigen::RealSchur takes 2.8 times as long for 110 rows, 3.0 for 200 and 400, 4.3 for 800, and turns whole vectors
+/// only; with it, by its share of the time, a diagram of the 5 MW machine would take a quarter longer, one with all
+/// modes a third. LAPACK's dhseqr, of whole vectors, takes 1.7 to 3.5 times as long with the reference BLAS; with
+/// OpenBLAS 2.4 times for 110 rows and as long for 400, half as long for 800, but that allocates.
 class SchurIteration {
 public:
     /// @param T  in: upper Hessenberg; out: quasi-triangular, with 2 x 2 blocks for complex pairs and zeros below

@@ -4,6 +4,11 @@
 ///   text --outline--> links, joints, notes, tidy text --urdfdom--> values --(read.cpp)--> Tree
 ///                          |
 ///                       structure: is it a tree? in which order?
+///
+/// The XML is parsed twice because urdfdom's messages do not suffice: they have no line numbers, unknown tags and
+/// attributes are passed over in silence, a link with a malformed inertia is kept half read, a link with two parents is
+/// accepted. So outline() goes through it first, with TinyXML, which urdfdom needs anyway, and leaves what concerns
+/// dynamics; what urdfdom still reports is a real error.
 #pragma once
 
 #include "mbs/base/error.hpp"

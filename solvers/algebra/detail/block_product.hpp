@@ -1,5 +1,9 @@
 /// @file
 /// The products and substitutions that the dense kernels are made of, in whole registers.
+///
+/// Eigen's, compiled for any x86-64, take 1.3 to 1.7 times as long from 60 to 400 rows with clang 14 (AVX2 without
+/// FMA), factorisations 1.4 to 1.6 times, up to four times as long with GCC (FMA); a quarter of the time of a diagram
+/// of two blades is spent here. They also allocate for more than about a hundred rows.
 #pragma once
 
 #include <cstddef>
