@@ -1,4 +1,5 @@
-/// @file Command by which a result was made, as its file keeps it beside the machine: with all options as they were
+/// @file
+/// Command by which a result was made, as its file keeps it beside the machine: with all options as they were
 /// used. From the file alone the run can be repeated.
 #pragma once
 

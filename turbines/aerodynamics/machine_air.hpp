@@ -26,7 +26,7 @@ namespace cardan::turbines {
 struct AirLags;
 
 /// Options of unsteady aerodynamics: states of first order that lag behind the motion.
-struct AirLagOptions {
+struct UnsteadyAeroOptions {
     /// Unsteady airfoils in the place of the blade's polars, one for each; those of cylinders and of the like lag in
     /// nothing. Empty: airfoils are steady.
     std::vector<UnsteadyAirfoil> airfoils = {};

@@ -21,9 +21,9 @@ struct Aerodynamics {
     RotorAirOptions options = {};
     double density = 1.225;  ///< kg/m^3
     /// Drag of tower and nacelle, tower influence. Heights as the file has them: support_on() sets the tower's foot.
-    AeroSupport support = {};
+    TowerNacelleAero support = {};
     /// Unsteady airfoils in the place of the blade's polars, one for each, where the flow lags behind the motion
-    /// (AirLagOptions::airfoils); empty: there are no data of it.
+    /// (UnsteadyAeroOptions::airfoils); empty: there are no data of it.
     std::vector<UnsteadyAirfoil> unsteady_airfoils = {};
     /// Sweep of the aerodynamic centres behind the pitch axis, m, for all that asks for the torsion of the blade, where
     /// `blade` has them on that axis for the sake of comparison; empty: those of `blade` hold.
@@ -41,7 +41,7 @@ struct Site {
     double gravity = units::standard_gravity;  ///< m/s^2, downward, in analyses with gravity
     /// Height of the tower base above the ground or the still water, m, as the model counts heights; none: as the
     /// machine stands.
-    std::optional<double> tower_foot = std::nullopt;
+    std::optional<double> tower_base = std::nullopt;
 };
 
 /// Operation of a machine, as far as its source says so; 0 and empty: it does not.

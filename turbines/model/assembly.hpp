@@ -1,4 +1,5 @@
-/// @file Assembly of a system from a description: tower, yaw joint, nacelle, tilt joint, drive train, hub, blades.
+/// @file
+/// Assembly of a system from a description: tower, yaw joint, nacelle, tilt joint, drive train, hub, blades.
 #pragma once
 
 #include "elements/machine_elements/coordinate_force.hpp"

@@ -63,10 +63,10 @@ struct NacelleDescription {
 /// (fast side times the gear ratio squared).
 struct DriveTrainDescription {
     double gear_ratio = 1;
-    double generator_inertia = 0;            ///< fast side, kg m^2; not zero if one of the shafts is elastic
-    double gearbox_inertia = 0;              ///< slow side, kg m^2; if it is zero one of the shafts must be rigid
-    Bearing high_speed_shaft = rigid_joint;  ///< fast side, generator - gearbox; spring or rigid
-    Bearing main_shaft;                      ///< slow side, gearbox - hub; spring or rigid
+    double generator_inertia = 0;                 ///< fast side, kg m^2; not zero if one of the shafts is elastic
+    double gearbox_inertia = 0;                   ///< slow side, kg m^2; if it is zero one of the shafts must be rigid
+    JointSupport high_speed_shaft = rigid_joint;  ///< fast side, generator - gearbox; spring or rigid
+    JointSupport main_shaft;                      ///< slow side, gearbox - hub; spring or rigid
     /// Inertia of what else turns with the generator's coordinate: x downwind along the shaft, z up at azimuth 0,
     /// origin on the tower axis.
     RigidInertia shaft;

@@ -10,7 +10,7 @@
 namespace cardan::turbines {
 
 struct ServoDyn {
-    Bearing yaw = rigid_joint;  ///< spring and damper of the yaw drive
+    JointSupport yaw = rigid_joint;  ///< spring and damper of the yaw drive
     /// Rated speed of the generator on its own shaft, rad/s; 0: not given. That of the torque law (VS_RtGnSp), of an
     /// induction generator at rated slip (SIG_SySp) or without slip (TEC_Freq, TEC_NPol), or of a ROSCO controller
     /// (PC_RefSpd of DLL_InFile). A number that three or more entries of generators have is a placeholder and not

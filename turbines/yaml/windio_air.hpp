@@ -20,7 +20,7 @@ struct WindioAir {
     std::vector<FileNote> notes;
     std::string source;  ///< text of the file
     /// Unsteady airfoils in the place of the polars of the blade, one for each, where air is to lag:
-    /// AirLagOptions::airfoils. The files have no data of it: unsteady_airfoils().
+    /// UnsteadyAeroOptions::airfoils. The files have no data of it: unsteady_airfoils().
     std::vector<UnsteadyAirfoil> airfoils = {};
 };
 
