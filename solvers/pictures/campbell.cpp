@@ -100,9 +100,10 @@ public:
 
     std::string damping_panel() const {
         const double low = std::min(0.0, 1.1 * zeta_min_), high = zeta_max_ > 1e-6 ? 1.1 * zeta_max_ : 1.0;
-        const bool decades = options_.log_damping && zeta_min_ > 0 && zeta_max_ > 30 * zeta_min_;
-        const std::string range = decades ? text("set logscale y\nset yrange [", 0.8 * zeta_min_, ":", 1.3 * zeta_max_)
-                                          : text("set yrange [", low, ":", high);
+        const bool decades = options_.log_damping && smallest_zeta_ > 0 && zeta_max_ > 30 * smallest_zeta_;
+        const std::string range = decades
+                                      ? text("set logscale y\nset yrange [", 0.8 * smallest_zeta_, ":", 1.3 * zeta_max_)
+                                      : text("set yrange [", low, ":", high);
         std::string s = text("unset title\n", x_range(), range, "]\nset format y '%g'\nset ylabel 'damping ratio, %'\n",
                              x_label_command(true), "unset key\n");
         std::string plots;
@@ -139,7 +140,7 @@ private:
             const double f = d.damped_hz(branch, i), zeta = damping(d, branch, i);
             if (std::isfinite(f)) f_max_ = std::max(f_max_, f);
             if (!std::isfinite(zeta)) continue;
-            zeta_min_ = std::min(zeta_min_, 100 * zeta);
+            smallest_zeta_ = std::min(smallest_zeta_, 100 * zeta);
             zeta_min_ = std::min(zeta_min_, 100 * zeta);
             zeta_max_ = std::max(zeta_max_, 100 * zeta);
         }
@@ -246,7 +247,7 @@ private:
     std::vector<Turning> turns_;
     double low_ = 0, high_ = 0;  // of the axis
     double f_max_ = 0, zeta_min_ = 0, zeta_max_ = 0;
-    double zeta_min_ = std::numeric_limits<double>::infinity();
+    double smallest_zeta_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
