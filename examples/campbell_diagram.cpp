@@ -1,6 +1,7 @@
 // Campbell diagram of the 600 kW machine of Zhao, Maisser and Wu, Renewable Energy 32 (2007) 532-546, with as many beam
 // elements as it takes, beside the three per blade and tower of the comparison with the paper.
 #include <cardan/mbs/base/error.hpp>
+#include <cardan/solvers/campbell/diagram.hpp>
 #include <cardan/solvers/campbell_data/csv.hpp>
 #include <cardan/solvers/hdf5/campbell.hpp>
 #include <cardan/solvers/pictures/campbell.hpp>

@@ -1,6 +1,7 @@
 // Floquet diagram of a machine with two blades on a teetered hub: modes about its periodic state at four rotor speeds,
 // and at the last, 6.02 rad/s, their frequencies per revolution and the shares of the harmonics of the revolution.
 #include <cardan/mbs/base/error.hpp>
+#include <cardan/solvers/campbell/diagram.hpp>
 #include <cardan/solvers/hdf5/campbell.hpp>
 #include <cardan/solvers/pictures/campbell.hpp>
 #include <cardan/turbines/reference_turbines/teetered.hpp>

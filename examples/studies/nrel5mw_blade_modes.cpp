@@ -13,6 +13,7 @@
 #include "mbs/base/version.hpp"
 #include "programs/shared/program.hpp"
 #include "programs/shared/words.hpp"
+#include "solvers/campbell/diagram.hpp"
 #include "solvers/campbell_data/csv.hpp"
 #include "solvers/pictures/blade_shapes.hpp"
 #include "turbines/reference_turbines/nrel5mw_blade.hpp"

@@ -7,6 +7,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/campbell_program.hpp"
+#include "solvers/campbell/diagram.hpp"
 #include "solvers/campbell_data/difference.hpp"
 #include "turbines/model/generator_slip.hpp"
 #include "turbines/reference_turbines/wt600_operation.hpp"

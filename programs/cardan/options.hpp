@@ -54,7 +54,7 @@ struct WindArguments {
     std::string schedule;  ///< file; empty: the machine's, or variable speed
     AirArguments air;
     std::optional<double> tip_speed_ratio, rated_power, rated_rpm;  ///< kW
-    double least_rpm = 0;
+    double min_rpm = 0;
 
     bool sets_law() const;  ///< is there an option of variable speed?
 };

@@ -6,6 +6,7 @@
 #include "programs/shared/program.hpp"
 #include "programs/shared/remarks.hpp"
 #include "programs/shared/words.hpp"
+#include "solvers/campbell/diagram.hpp"
 #include "solvers/campbell_data/csv.hpp"
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/pictures/campbell.hpp"

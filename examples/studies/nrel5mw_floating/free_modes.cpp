@@ -3,9 +3,12 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
 #include "programs/shared/campbell_program.hpp"
+#include "solvers/algebra/assignment.hpp"
+#include "solvers/campbell/diagram.hpp"
 #include "solvers/campbell_data/csv.hpp"
 #include "solvers/hdf5/campbell.hpp"
 #include "solvers/mode_names/community_names.hpp"
+#include "solvers/periodic/azimuth_average.hpp"
 #include "solvers/pictures/campbell.hpp"
 
 #include <algorithm>

@@ -154,10 +154,10 @@ void note_cut_out(OpenFastFile& file, UnsteadyData& data) {
     check("UACutout_delta", cut_out_range, "unsteady airfoils fade from 40 to 45 deg here");
 }
 
-UnsteadyProfile made_profile(OpenFastFile& file, const Polar& polar, UnsteadyData& data, ProfileModel model) {
+UnsteadyAirfoil made_airfoil(OpenFastFile& file, const Polar& polar, UnsteadyData& data, UnsteadyAirfoilModel model) {
     // Not of numbers beyond all measure.
     return file.checked("NumAlf", [&] {
-        return UnsteadyProfile{polar, flow_of(file, data, polar), lags_of(data, model, polar)};
+        return UnsteadyAirfoil{polar, flow_of(file, data, polar), lags_of(data, model, polar)};
     });
 }
 
