@@ -71,10 +71,10 @@ void Search::orthogonalise(Vector& w, Index columns) const {
 }
 
 void Search::begin() {
-    const Index most = std::min<Index>(options_.most, n_ - Q_.cols());
-    V_.resize(n_, most + 1);
-    AV_.resize(n_, most);
-    H_.setZero(most + 1, most);
+    const Index limit = std::min<Index>(options_.max_vectors, n_ - Q_.cols());
+    V_.resize(n_, limit + 1);
+    AV_.resize(n_, limit);
+    H_.setZero(limit + 1, limit);
     size_ = 0;
     invariant_ = false;
     Vector v = random_vector();
@@ -117,7 +117,7 @@ Index Search::ritz(Index size, bool& settled) {
     Index wanted = 0;
     settled = true;
     for (const RealEigen::Value& value : values_) {
-        const bool own = std::abs(value.mu) >= options_.least;
+        const bool own = std::abs(value.mu) >= options_.min_magnitude;
         settled = settled && (invariant_ || residual(value) < (own ? options_.tolerance : rough));
         if (!own) return wanted;
         ++wanted;
@@ -202,9 +202,9 @@ DominantEigen Search::run() {
 
 DominantEigen dominant_eigenvalues(const LinearOperator& A, Eigen::Index size, const DominantOptions& options) {
     constexpr const char* place = "dominant eigenvalues";
-    require_positive(place, "least magnitude", options.least);
+    require_positive(place, "minimum magnitude", options.min_magnitude);
     require_positive(place, "tolerance", options.tolerance);
-    if (options.most < 1) throw InputError(place, "limit of vectors", options.most, ">= 1");
+    if (options.max_vectors < 1) throw InputError(place, "limit of vectors", options.max_vectors, ">= 1");
     if (size < 0) throw InputError(place, "size of the operator", size, ">= 0");
     if (size == 0) return {.complete = true};
     return Search(A, size, options).run();

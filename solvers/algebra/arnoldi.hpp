@@ -13,12 +13,12 @@ namespace cardan::solvers {
 using LinearOperator = std::function<void(const Vector& x, Vector& y)>;
 
 struct DominantOptions {
-    double least = 0;          ///< magnitude from which on eigenvalues are wanted; > 0
+    double min_magnitude = 0;  ///< magnitude from which on eigenvalues are wanted; > 0
     double tolerance = 1e-15;  ///< residual of an eigenpair beside the eigenvalue, as the Krylov space tells it
-    int most = 200;            ///< limit of vectors in one Krylov space
+    int max_vectors = 200;     ///< limit of vectors in one Krylov space
 };
 
-/// Eigenvalues of magnitude `least` and more, and a few that are smaller.
+/// Eigenvalues of magnitude `min_magnitude` and more, and a few that are smaller.
 struct DominantEigen {
     struct Value {
         Complex mu;            ///< of complex pairs the one with positive imaginary part
@@ -30,10 +30,10 @@ struct DominantEigen {
 };
 
 /// By Arnoldi's method with full orthogonalisation [Saad, Numerical Methods for Large Eigenvalue Problems, ch. 6]: the
-/// Krylov space of a random vector grows until all Ritz values of magnitude `least` and more, and the next smaller one,
-/// have converged. What was found is deflated, and the search starts again with another random vector until it finds
-/// nothing more: one vector yields one eigenvector of a multiple eigenvalue only. The eigenpairs are those of the
-/// operator projected on all that was found. The random vectors are the same in every call.
+/// Krylov space of a random vector grows until all Ritz values of magnitude `min_magnitude` and more, and the next
+/// smaller one, have converged. What was found is deflated, and the search starts again with another random vector
+/// until it finds nothing more: one vector yields one eigenvector of a multiple eigenvalue only. The eigenpairs are
+/// those of the operator projected on all that was found. The random vectors are the same in every call.
 ///
 /// Spectra's implicitly restarted method is told a number of eigenvalues, not a magnitude, and does not deflate. For
 /// 352 rows and 32 eigenvalues it takes as long, with as many products. In numbers doubled until they suffice it takes

@@ -248,8 +248,8 @@ bool ModeSolver::solve_few(double scale, double largest) {
         y << b, x.head(n) + mode_shift * b;
     };
     DominantOptions options;
-    options.least = 1 / (beyond * largest / scale + mode_shift);
-    options.most = static_cast<int>(n);
+    options.min_magnitude = 1 / (beyond * largest / scale + mode_shift);
+    options.max_vectors = static_cast<int>(n);
     const DominantEigen found = dominant_eigenvalues(apply, 2 * n, options);
     if (!found.complete) {
         too_many_ = largest;

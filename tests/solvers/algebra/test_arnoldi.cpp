@@ -19,7 +19,7 @@ using Index = Eigen::Index;
 
 DominantEigen dominant_of(const Matrix& A, double min, int most = 200) {
     const LinearOperator apply = [&](const Vector& x, Vector& y) { y = A * x; };
-    return dominant_eigenvalues(apply, A.rows(), {.min = min, .most = most});
+    return dominant_eigenvalues(apply, A.rows(), {.min_magnitude = min, .max_vectors = most});
 }
 
 double rest_of_pair(const Matrix& A, const DominantEigen::Value& value) {
