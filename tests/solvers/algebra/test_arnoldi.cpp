@@ -125,6 +125,6 @@ TEST_CASE("Arnoldi: as the dense solver on random matrices; every one or none", 
 
 TEST_CASE("Arnoldi: bad input is refused", "[bad input]") {
     const Matrix A = Matrix::Identity(3, 3);
-    check_refused([&] { (void)dominant_of(A, 0); }, {"least magnitude", "0"});
+    check_refused([&] { (void)dominant_of(A, 0); }, {"minimum magnitude", "0"});
     check_refused([&] { (void)dominant_of(A, 1, 0); }, {"limit of vectors", "0"});
 }

@@ -17,7 +17,7 @@ namespace linkage_tests {
 class Driven {
 public:
     Driven(const System& system, const Vector& near, double rate) : system_(&system), workspace_(system.model) {
-        const ClosureOptions held{.held = {0}};
+        const ClosureOptions held{.fixed = {0}};
         const Closure closed = close_loops(system.model, system.loops, near, held);
         require_result(closed);
         Vector qd = Vector::Zero(near.size());
@@ -182,7 +182,7 @@ TEST_CASE("linkages: forces of loops are recorded as channels", "[discrete]") {
     // The slider-crank at an angle of 1, and a mass on a rod that hangs still.
     const SliderCrank machine;
     const Vector near = SliderCrank::position(1);
-    const ClosureOptions held{.held = {0}};
+    const ClosureOptions held{.fixed = {0}};
     const Closure closed = close_loops(machine.system.model, machine.system.loops, near, held);
     const Vector qd = close_rates(machine.system.model, machine.system.loops, closed.q, Vec3(150, 0, 0), held);
     Integrator run(machine.system, {}, 0, closed.q, qd);

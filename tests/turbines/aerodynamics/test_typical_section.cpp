@@ -1,6 +1,6 @@
 // Flutter and divergence of a section on two springs in the air of a lagging profile, against Theodorsen's equations.
 #include "elements/aerodynamics/lagging_air.hpp"
-#include "solvers/campbell/stability_limits.hpp"
+#include "solvers/stability/stability_limits.hpp"
 #include "tests/oracles/strip_flutter.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/tree_tools.hpp"

@@ -15,7 +15,7 @@ template <class Change>
 void change_section(BeamLine& line, const Change& change) {
     BeamTable table = *line.section.table();
     for (EngineeringSection& section : table.sections) change(section);
-    line = turbines::beam_line(table);
+    line = beam_line(table);
 }
 
 inline constexpr double teetered_speed = 6.02;  ///< nominal, rad/s
