@@ -25,7 +25,7 @@ struct StribeckFriction {
         double force = 0, by_speed = 0;
     };
     Force at(double speed) const;
-    /// Without regularisation, while it slides one way: T on and beyond v = 0.
+    /// Force of sliding one way, without regularisation: T on and beyond v = 0.
     /// @param direction  1: v > 0, -1: v < 0
     Force sliding(double speed, int direction) const;
     void check(const std::string& where) const;
@@ -35,7 +35,7 @@ struct StribeckFriction {
 /// @param surface_speed  of the surface, m/s or rad/s
 ForceElement friction_force(std::string name, BodyId coordinate, const StribeckFriction& law, double surface_speed = 0);
 
-/// The same with true sticking where a time integration watches for it (stick_slip()): adds the force of sliding, and
+/// Adds friction with true sticking where a time integration watches for it (stick_slip()): the force of sliding, and
 /// the lock that holds what sticks. Elsewhere - steady states, linear models - the law is regularised.
 DryFriction add_dry_friction(ForceSet& forces, LoopSet& loops, const std::string& name, BodyId coordinate,
                              const StribeckFriction& law, double surface_speed = 0);

@@ -11,7 +11,7 @@
 
 namespace cardan {
 
-/// How engineering constants are interpolated between stations: mass, twist, offsets and inertias linearly, stiffnesses
+/// Interpolation of engineering constants between stations: mass, twist, offsets and inertias linearly, stiffnesses
 /// linearly or log-linearly (ln EI, ln GJ linear). Infinite stiffnesses must be infinite at all stations.
 enum class Interpolation : std::uint8_t { linear, log_linear_stiffness };
 

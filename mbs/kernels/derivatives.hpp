@@ -27,7 +27,7 @@ namespace cardan {
 /// Cost O(n d) and n^2 zeros, no allocation.
 void inverse_dynamics_derivatives(const Kinematics& kin, VectorIn qd, VectorIn qdd, MatrixOut dtau_dq,
                                   MatrixOut dtau_dqd);
-/// As above, without the zeros between branches.
+/// Derivatives without the zeros between branches.
 void inverse_dynamics_derivatives(const Kinematics& kin, VectorIn qd, VectorIn qdd, BranchMatrix& dtau_dq,
                                   BranchMatrix& dtau_dqd);
 

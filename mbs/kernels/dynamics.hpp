@@ -71,7 +71,7 @@ private:
         Packed3<double> force, moment;    // that pass the joint in the backward sweep
         Packed3<double> angular, linear;  // acceleration in the forward sweep
     };
-    /// Likewise on the path from the base to the coordinates that armatures couple, for one of several loads.
+    /// Numbers on the path from the base to the coordinates that armatures couple, for one of several loads.
     struct OnPath {
         double qdd;  ///< in: load; out: acceleration
         double reaction;

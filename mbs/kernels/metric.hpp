@@ -20,7 +20,7 @@ namespace cardan {
 /// @throws InputError if g has the wrong size or belongs to another model, as do all functions here
 template <class S>
 void metric(const KinematicsT<S>& kin, MatrixOutT<S> g);
-/// As above, without the zeros between branches, which in large trees cost more than the entries.
+/// The metric without the zeros between branches, which in large trees cost more than the entries.
 void metric(const Kinematics& kin, BranchMatrix& g);
 
 /// Adds J s s^T of every armature to a metric.

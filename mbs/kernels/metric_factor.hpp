@@ -21,7 +21,7 @@ struct [[nodiscard]] PivotStatus {
 
     bool ok() const { return index < 0; }
     explicit operator bool() const { return ok(); }
-    /// What failed and what to do, empty if nothing did.
+    /// Says what failed and what to do; empty if nothing did.
     std::string message() const;
 };
 

@@ -20,7 +20,7 @@ struct CoordinateInfo {
     std::string name;                            ///< unique, e.g. "blade 1 element 2 flap bending inboard"
     std::string part = {};                       ///< the part it belongs to, e.g. "tower", "drive train", "blade"
     int blade = 0;                               ///< blade number counted from 1, 0: belongs to no blade
-    CoordinateRole role = CoordinateRole::free;  ///< default role; solvers may be told otherwise
+    CoordinateRole role = CoordinateRole::free;  ///< default role; solvers may be given another
     std::string unit = {};                       ///< "rad" or "m"; filled in by the tree
 };
 

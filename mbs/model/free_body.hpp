@@ -22,7 +22,7 @@ FreeMotion free_motion(const Model::Free& body, const Vector& q, const Vector& q
 /// @throws InputError for a pose that is not one, or values that are not finite
 void set_free_motion(const Model::Free& body, const FreeMotion& motion, Vector& q, Vector& qd);
 
-/// How far its coordinates are from being singular: 1 as set_free_motion() leaves them, 0 where they are.
+/// Distance of its coordinates from being singular: 1 as set_free_motion() leaves them, 0 where they are.
 double free_chart_quality(const Model::Free& body, const Vector& q);
 
 }  // namespace cardan

@@ -1,5 +1,5 @@
 /// @file
-/// What the kernels read of a body. For those who write kernels; others find the same in Model::Body.
+/// The numbers of a body that the kernels read. Others than kernels find the same in Model::Body.
 #pragma once
 
 #include "mbs/base/packed.hpp"

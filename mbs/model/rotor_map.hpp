@@ -1,5 +1,5 @@
 /// @file
-/// What a solver must know about a machine beyond its coordinates, as data, so that solvers need not know about
+/// Data that a solver needs of a machine beyond its coordinates, as data, so that solvers need not know about
 /// turbines.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace cardan {
 
-/// How the modes of a part are named: after the axis of the coordinates that hold most of the elastic energy in the
+/// Names of the modes of a part: after the axis of the coordinates that hold most of the elastic energy in the
 /// part's component mode (everything else clamped).
 struct PartAxes {
     std::string part;                        ///< as in CoordinateInfo::part

@@ -15,7 +15,7 @@
 
 namespace cardan {
 
-/// What a body needs to be added to a tree. Its own frame has z along the joint axis.
+/// A body to be added to a tree. Its own frame has z along the joint axis.
 struct BodySpec {
     std::string name = {};     ///< unique
     FrameId inboard = {};      ///< frame that carries the joint
@@ -33,7 +33,7 @@ struct Armature {
     std::vector<std::pair<BodyId, double>> spin = {};  ///< the vector s: coordinates on one branch and their factors
 };
 
-/// What a free body needs to be added to a tree.
+/// A free body to be added to a tree.
 struct FreeBodySpec {
     std::string name = {};
     FrameId inboard = {};            ///< from which it is seen
@@ -84,8 +84,8 @@ public:
 
     BodyId add_body(BodySpec spec);
     BodyId add_body(BodySpec spec, const DhParameters& dh);
-    /// Its coordinates are "<name> x", "y", "z", "<name> reference" and "<name> turn z", "turn y", "turn x"; its frame
-    /// is called like the body.
+    /// Adds a free body. Its coordinates are "<name> x", "y", "z", "<name> reference" and "<name> turn z", "turn y",
+    /// "turn x"; its frame is called like the body.
     FreeBody add_free_body(const FreeBodySpec& spec);
     /// A frame fixed to the body of `parent`, at `placement` in it.
     FrameId add_frame(FrameId parent, const Placement& placement, std::string name);

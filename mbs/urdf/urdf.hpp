@@ -83,8 +83,8 @@ struct UrdfExport {
 /// urdf_losses().
 /// @throws InputError if joint data name no coordinate or one twice, or are impossible; if a name cannot stand in XML
 [[nodiscard]] std::string to_urdf(const Tree& tree, const UrdfExport& with = {});
-/// What is lost in the conversion to URDF: armatures, added masses, roles and parts of coordinates, reduced inertias,
-/// missing limits.
+/// Lists what is lost in the conversion to URDF: armatures, added masses, roles and parts of coordinates, reduced
+/// inertias, missing limits.
 [[nodiscard]] std::vector<std::string> urdf_losses(const Tree& tree, const UrdfExport& with = {});
 /// Writes to_urdf() to a file, which is called "<file>.partial" until it is complete.
 /// @throws FileError if it cannot be written, and what to_urdf() throws

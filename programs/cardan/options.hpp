@@ -1,5 +1,5 @@
 /// @file
-/// What the commands ask about the air, the wind and how a machine runs, and what that means to the library.
+/// Options of the commands on air, wind and operation of a machine, and their translation to the library's settings.
 #pragma once
 
 #include "programs/shared/command_line.hpp"
@@ -25,13 +25,13 @@ struct AirArguments {
     bool no_skew = false, no_tower = false;
     std::string wake = "quasi-steady";  ///< "none": no induced velocities
 };
-/// Of these, file and density alone.
+/// Adds the file of the airfoils and the density alone.
 /// @return the options
 std::vector<Option> add_airfoil_options(CommandLine& app, AirArguments& arguments);
 std::vector<Option> add_air_options(CommandLine& app, AirArguments& arguments);
-/// Of commands whose wake is in equilibrium, or none.
+/// Adds --wake to commands whose wake is in equilibrium, or none.
 Option add_wake_option(CommandLine& app, AirArguments& arguments);
-/// In the library's own terms.
+/// Translates the arguments into the library's terms.
 turbines::AirSettings settings_of(const AirArguments& arguments);
 
 /// Puts the airfoils that were asked for in the place of the machine's, and prints the notes on those it has then.
@@ -65,7 +65,7 @@ Option add_wind_options(CommandLine& app, WindArguments& arguments);
 std::vector<double> winds_of(const WindArguments& wind);
 turbines::OperationSettings operation_of(const WindArguments& wind);
 
-/// What the air does to a vibration.
+/// Arguments on the air's part in a vibration.
 struct VibrationArguments {
     WindArguments wind;  ///< of its wake, air.wake, frozen and dynamic too
     bool steady_airfoils = false, floquet = false;
@@ -93,17 +93,17 @@ void show_progress(const char* what, int done, int total);
 /// rad/s; none: it was not asked for.  @throws InputError for what is not finite
 std::optional<double> asked_speed(const std::optional<double>& asked_rpm);
 
-/// One speed: what was asked for, rev/min, or the machine's, which is told.
+/// The rotor speed that was asked for, rev/min, or the machine's, which is reported.
 /// @return rad/s;  @throws InputError if there is none
 double rotor_speed(const std::optional<double>& asked_rpm, const turbines::Machine& machine);
 
-/// Without a pitch among the options, that of the machine at a rotor speed, rad/s, is put there, and told.
+/// Puts the machine's pitch at a rotor speed, rad/s, among options that have none, and reports it.
 void set_pitch(const turbines::Machine& machine, MachineOptions& options, double rotor_speed);
 
 /// --like
 void add_like(CommandLine& app, std::string& file);
 
-/// Of a picture: the machine, and what the diagram holds for.
+/// Title of a picture: the machine, and what the diagram holds for.
 std::string title_of(const solvers::Campbell& diagram);
 
 /// The name of the machine's file without its ending, and what was made of it: "NREL-5MW_campbell".

@@ -6,7 +6,7 @@
 
 namespace cardan::solvers {
 
-/// Of the last iterations of x := x + f(x) those are combined that cancel the present f best: in linear problems as
+/// Combines those of the last iterations of x := x + f(x) that cancel the present f best: in linear problems as
 /// fast as GMRES, in others often where the plain iteration would not converge.     [Anderson 1965; Walker and Ni 2011]
 ///
 /// KINSOL has the same (KINSetMAA), but the loop is KINSOL's then; those that use this keep the best state and give up

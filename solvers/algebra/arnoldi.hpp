@@ -35,7 +35,7 @@ struct DominantEigen {
 /// until it finds nothing more: one vector yields one eigenvector of a multiple eigenvalue only. The eigenpairs are
 /// those of the operator projected on all that was found. The random vectors are the same in every call.
 ///
-/// Spectra's implicitly restarted method is told a number of eigenvalues, not a magnitude, and does not deflate. For
+/// Spectra's implicitly restarted method takes a number of eigenvalues, not a magnitude, and does not deflate. For
 /// 352 rows and 32 eigenvalues it takes as long, with as many products. In numbers doubled until they suffice it takes
 /// 0.4 times as long for 240 rows and some 22 eigenvalues, most of them triple, as of three blades that are alike; but
 /// of 150 such operators it lost an eigenvalue of one, which would be a mode that is missing in a diagram.

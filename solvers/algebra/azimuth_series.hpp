@@ -16,7 +16,8 @@ Vector fourier_weights(double psi, int harmonics, int count);
 
 /// Coefficients of the series through equidistant samples (one per column, from azimuth 0 on).
 Matrix fourier_coefficients(const Matrix& samples, int harmonics);
-/// Of exp(i j psi), j = -J ... J by column, of every row, as many as the samples tell apart: J = (samples - 1) / 2.
+/// Coefficients of exp(i j psi), j = -J ... J by column, of every row, as many as the samples tell apart: J = (samples
+/// - 1) / 2.
 ComplexMatrix fourier_coefficients(const ComplexMatrix& samples);
 
 }  // namespace cardan::solvers

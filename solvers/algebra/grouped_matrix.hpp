@@ -18,7 +18,7 @@ public:
     };
 
     GroupedMatrix() = default;
-    /// With the groups of A. Implicit: a dense matrix is one of these.
+    /// Takes the groups of A. Implicit: a dense matrix is one of these.
     GroupedMatrix(const Matrix& A) { set(A); }  // NOLINT(google-explicit-constructor)
 
     Eigen::Index rows() const { return static_cast<Eigen::Index>(places_.size()); }
@@ -30,7 +30,7 @@ public:
     void join(const std::vector<std::vector<int>>& sets);
     /// The block of a group, to be changed.
     Matrix& block(std::size_t group) { return groups_[group].block; }
-    /// Where a row is.
+    /// Place of a row.
     std::size_t group_of(Eigen::Index row) const;
     Eigen::Index place_in_group(Eigen::Index row) const;
 

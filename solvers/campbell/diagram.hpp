@@ -15,7 +15,7 @@ namespace cardan::solvers {
 /// @throws InputError: NaN, step not positive, last below first, more than 100000 speeds.
 std::vector<double> rpm_range(double first, double last, double step);
 
-/// How modes are computed, and in which frame.
+/// Method by which modes are computed, and in which frame.
 enum class CampbellMethod : std::uint8_t {
     automatic,  ///< `coleman` where the equations are constant in multi-blade coordinates, else `floquet`: two blades,
                 ///< blades that differ, gravity on coned or bent blades; Campbell::method says which and why
@@ -91,7 +91,7 @@ struct CampbellOptions {
 /// found.
 Campbell campbell(const System& system, const RotorMap& rotor, std::span<const double> rotor_speed,
                   const CampbellOptions& options = {});
-/// Likewise, with the speeds written in the call: campbell(system, rotor, {0.0, 1.5, 3.0}).
+/// Takes the speeds as they are written in the call: campbell(system, rotor, {0.0, 1.5, 3.0}).
 inline Campbell campbell(const System& system, const RotorMap& rotor, std::initializer_list<double> rotor_speed,
                          const CampbellOptions& options = {}) {
     return campbell(system, rotor, std::span<const double>(rotor_speed.begin(), rotor_speed.size()), options);
@@ -103,9 +103,9 @@ struct CampbellCase {
     const RotorMap* rotor = nullptr;
     double rotor_speed = 0;  ///< rad/s
     double parameter = 0;    ///< its place on the axis
-    /// Where its steady state is looked for, and the motion of driven coordinates, such as a pitch that is prescribed,
-    /// as PeriodicOptions::start and state_start: columns are harmonics, a single one is constant. Empty: zero, and the
-    /// states as their table says; in stability_limits() as they are at the nearest point that it has.
+    /// Start of the search for its steady state, and the motion of driven coordinates, such as a pitch that is
+    /// prescribed, as PeriodicOptions::start and state_start: columns are harmonics, a single one is constant. Empty:
+    /// zero, and the states as their table says; in stability_limits() as they are at the nearest point that it has.
     Matrix start = {}, state_start = {};
 };
 
@@ -122,7 +122,7 @@ Campbell campbell(std::span<const CampbellCase> cases, const std::string& parame
 /// Makes the next machine of a diagram, or says that there are no more. What it points to lives until the diagram is
 /// there.
 using NextCampbellCase = std::function<std::optional<CampbellCase>()>;
-/// Likewise, of machines that are made one by one, each after the modes of the one before: what is cancelled has all
+/// Modes of machines that are made one by one, each after the modes of the one before: what is cancelled has all
 /// that belongs to its points. Without any machine the diagram is empty and not complete.
 /// @param count  of machines, for CampbellOptions::progress
 /// @throws InputError also for CampbellMethod::automatic, which asks for all machines at once

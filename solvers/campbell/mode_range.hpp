@@ -1,5 +1,5 @@
 /// @file
-/// Which modes of a constant system a Campbell diagram computes.
+/// Range of the modes of a constant system that a Campbell diagram computes.
 #pragma once
 
 #include "solvers/campbell/diagram.hpp"

@@ -39,7 +39,7 @@ public:
     PointSolver& operator=(const PointSolver&) = delete;
     virtual ~PointSolver() = default;
 
-    /// Of the next point: CampbellCase::start and state_start. Empty ones change nothing.
+    /// Sets the start of the next point: CampbellCase::start and state_start. Empty ones change nothing.
     virtual void start_from(const Matrix& coordinates, const Matrix& states);
     /// All points that will be solved, in this order: what is cheap and may fail is done before anything else.
     /// @throws as solve()
@@ -65,13 +65,14 @@ public:
     const EnergyFractions* energy_shares() const { return energy_shares_ ? &*energy_shares_ : nullptr; }
     /// Blade coordinates at azimuth 0 from the rows of a mode's shape.
     Matrix rotating_coordinates() const;
-    /// With loops, how all coordinates of the model move with the unknowns in blade coordinates; empty without.
+    /// Says of machines with loops how all coordinates of the model move with the unknowns in blade coordinates; empty
+    /// without.
     Matrix followers(const DynamicState& at) const;
     /// Null without multi-blade rows.
     const ColemanTransform* coleman() const { return coleman_ ? &*coleman_ : nullptr; }
     /// A warning about the results so far; usually empty.
     const std::string& warning() const { return warning_; }
-    /// Which modes the next point has, where the equations are constant.
+    /// Range of the modes of the next point, where the equations are constant.
     ModeRange& mode_range() { return range_; }
 
     /// Coordinates that may move: the unknowns, and with loops those that follow them.
@@ -81,7 +82,7 @@ public:
     /// Largest part of the (multi-blade) matrices that changes with the azimuth, relative to them. Steady state as in
     /// solve().
     double periodic_remainder(double rotor_speed);
-    /// Of each blade, x^H K_elastic x of its own coordinates; allocates.
+    /// x^H K_elastic x of the own coordinates of each blade; allocates.
     /// @param shape  in blade coordinates, by unknown
     Vector blade_energies(const Linearisation& lin, const ComplexVector& shape) const;
     /// One of the blades may move alone: they differ, or are not evenly spaced. From the first point on, or after

@@ -112,10 +112,10 @@ struct Campbell {
     /// For whoever makes a diagram to fill in: what else it holds for ("platform held"), and how accurate its
     /// frequencies are. One line each: before and after the table, in files and titles.
     std::string remark, accuracy;
-    /// Why CampbellMethod::automatic took Floquet theory: "the blades differ", "blade 2 of 3 is missing", "two blades",
-    /// "the equations are not constant in multi-blade coordinates", "there is no constant steady state" ...; and which
-    /// azimuth the modes at standstill belong to, where it matters. Empty: multi-blade coordinates make the equations
-    /// constant, or the method was asked for.
+    /// Reason why CampbellMethod::automatic took Floquet theory: "the blades differ", "blade 2 of 3 is missing", "two
+    /// blades", "the equations are not constant in multi-blade coordinates", "there is no constant steady state" ...;
+    /// and which azimuth the modes at standstill belong to, where it matters. Empty: multi-blade coordinates make the
+    /// equations constant, or the method was asked for.
     std::string method_reason;
     RotorSpin spin = RotorSpin::free;
     int blades = 0;

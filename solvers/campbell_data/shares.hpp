@@ -8,7 +8,7 @@
 
 namespace cardan::solvers {
 
-/// How the blades participate: a rotor mode is collective or whirls; at standstill (and at a frozen azimuth) nothing
+/// Participation of the blades: a rotor mode is collective or whirls; at standstill (and at a frozen azimuth) nothing
 /// whirls, and the pair is cosine (blade 1 against the others, couples with tilt) and sine (couples with yaw). Two
 /// blades deflect alike, each seen from its own root (symmetric), or opposite to each other (antisymmetric): in a
 /// symmetric mode both flap out of plane in the same direction, or both lag behind the rotor [Lee et al. 2002,

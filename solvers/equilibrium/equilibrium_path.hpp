@@ -42,7 +42,7 @@ struct EquilibriumPathPoint {
     int negative_pivots = 0;
 };
 
-/// Where the number of negative pivots first differs from that at the start of the path.
+/// Factor at which the number of negative pivots first differs from that at the start of the path.
 struct StabilityChange {
     double before = 0;  ///< largest load factor with the old number
     double after = 0;   ///< smallest one with the new number

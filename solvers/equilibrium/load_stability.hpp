@@ -9,7 +9,7 @@
 
 namespace cardan::solvers {
 
-/// How the vibrations about an equilibrium grow: oscillating (complex eigenvalue) or not (real eigenvalue).
+/// Kind of growth of the vibrations about an equilibrium: oscillating (complex eigenvalue) or not (real eigenvalue).
 enum class Instability : std::uint8_t { none, flutter, divergence };
 
 struct LoadStabilityOptions {

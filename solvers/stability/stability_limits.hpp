@@ -27,9 +27,9 @@ struct StabilityOptions {
     /// refused, shapes are not kept. Progress counts `steps`; cancelling keeps the modes as far as they were followed.
     CampbellOptions modes = {};
     int steps = 20;  ///< equal ones, over the range. A motion that grows within less than a step only is missed
-    /// How often a step is halved where it is doubtful which mode is which (a MAC below `min_reliable_mac`, or another
-    /// mode as like and nearer in its eigenvalue; of modes with a damping ratio up to 0.5), or where no steady state is
-    /// found. What is doubtful then is marked.
+    /// Number of times that a step is halved where it is doubtful which mode is which (a MAC below `min_reliable_mac`,
+    /// or another mode as like and nearer in its eigenvalue; of modes with a damping ratio up to 0.5), or where no
+    /// steady state is found. What is doubtful then is marked.
     int halvings = 6;
     double tolerance = 1e-9;  ///< of the parameter, over the width of the range
     /// A mode grows if Re(lambda) > growth |lambda|; less is rounding, as of a structure without damping and air.
@@ -54,8 +54,8 @@ struct StabilityLimits {
     /// The modes that were followed, and where: frequencies and damping over the parameter. `complete` is false if the
     /// end of the range was not reached. Its branches are single curves, also through veerings.
     Campbell diagram;
-    /// What grows at the first value already, or where it is first found or lost; what grows, or is all there is,
-    /// beyond the largest frequency that is followed; why the end of the range was not reached, or divergence not
+    /// Remarks: what grows at the first value already, or where it is first found or lost; what grows, or is all there
+    /// is, beyond the largest frequency that is followed; why the end of the range was not reached, or divergence not
     /// looked for. Usually empty.
     std::string note;
 

@@ -92,7 +92,7 @@ public:
         }
     }
 
-    /// What `make` returns; what it refuses, InputError, is said of the entry.
+    /// Returns what `make` returns; an InputError of its own is reported at the entry.
     template <class Make>
     auto checked(std::string_view keyword, const Make& make) const {
         try {

@@ -43,7 +43,7 @@ struct ReferenceCase {
 /// "none" and "pitch".
 const std::array<ReferenceCase, 2>& reference_cases();
 
-/// What is compared: channel of blade 1, its name in tables, its unit there in SI.
+/// A signal that is compared: channel of blade 1, its name in tables, its unit there in SI.
 struct SignalName {
     const char *channel, *name;
     double unit;

@@ -28,7 +28,7 @@ struct LoopOptions {
 /// Code 3: the response shows others than the eigenvalue.
 int loop(const MachineOptions& machine, const LoopOptions& options, const std::string& out);
 
-/// What the speed loop of a rigid machine has beside the gains of its PI controller.
+/// Parts of the speed loop of a rigid machine beside the gains of its PI controller.
 struct RigidParts {
     bool schedule = true;  ///< the gain changes with the pitch, and multiplies the integral: h below, else 0
     bool power = true;     ///< the generator's torque falls with the speed: P below, else 0
@@ -44,7 +44,7 @@ struct RigidParts {
 /// the pair of roots that oscillates and is lowest in frequency.
 /// @param inertia  J, kg m^2
 Complex rigid_loop(const SteadyPoint& point, double inertia, const RigidParts& parts = {});
-/// Of the elastic machine the mode nearest to that of the rigid one.  @throws NumericalError if there is none
+/// The elastic machine's mode that is nearest to that of the rigid one.  @throws NumericalError if there is none
 const solvers::Mode& elastic_loop(const LinearLoop& loop, Complex rigid);
 
 struct DamperStudy {

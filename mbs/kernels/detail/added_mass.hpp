@@ -16,7 +16,7 @@ Mat6T<S> own_added_mass(const KinematicsT<S>& kin, const Model::AddedMass& water
     return turn * water.inertia.template cast<S>() * turn.transpose();
 }
 
-/// That of the subtrees, tip to base.
+/// Sums the added mass of the subtrees, tip to base.
 template <class S>
 void gather_added_mass(const KinematicsT<S>& kin);
 

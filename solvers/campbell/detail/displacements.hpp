@@ -9,7 +9,7 @@ namespace cardan::solvers {
 /// Exponents that are less, over the rotor speed, belong to rigid motions (a free spin): errors of the steady state
 /// move a double zero by their square root.
 inline constexpr double rigid_per_radian = 1e-4;
-/// That limit for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
+/// Limit for the free spin in the azimuthal average, where gravity on bent blades makes it a weak pendulum.
 inline constexpr double free_spin_limit = 0.05;
 
 /// A rigid displacement has no other harmonics, and no energy: what is there is rounding.
@@ -30,7 +30,7 @@ void find_weak_spin(std::vector<FloquetMode>& modes, const Matrix& M, double spe
 /// slowest vibration, which is much faster, it is a displacement.
 void name_weak_spin(std::vector<CampbellMode>& modes, const Matrix& M, Eigen::Index spin);
 
-/// Where several coordinates are free, any mixture of their displacements is a rigid motion, and rounding decides which
+/// If several coordinates are free, any mixture of their displacements is a rigid motion, and rounding decides which
 /// ones are found: those of one coordinate each take their place, as far as their number allows.
 /// @param M  in rows of the modes' shapes
 void separate_displacements(std::vector<CampbellMode>& modes, const Matrix& M);

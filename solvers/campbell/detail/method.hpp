@@ -1,5 +1,5 @@
 /// @file
-/// Which method suits a machine: constant equations in multi-blade coordinates, or periodic ones.
+/// Choice of the method that suits a machine: constant equations in multi-blade coordinates, or periodic ones.
 #pragma once
 
 #include "solvers/campbell/diagram.hpp"
@@ -8,7 +8,7 @@
 
 namespace cardan::solvers {
 
-/// What CampbellMethod::automatic stands for.
+/// The method that CampbellMethod::automatic stands for.
 struct MethodChoice {
     CampbellMethod method;
     std::string reason = {};  ///< as Campbell::method_reason
@@ -18,7 +18,7 @@ struct MethodChoice {
 /// @throws InputError as PointSolver
 MethodChoice choose_method(const System& system, const RotorMap& rotor, std::span<const double> rotor_speeds,
                            const CampbellOptions& options);
-/// Likewise for a diagram over another parameter: Coleman's if it suits all machines.
+/// The method of a diagram over another parameter: Coleman's if it suits all machines.
 MethodChoice choose_method(std::span<const CampbellCase> cases, const std::string& parameter,
                            const CampbellOptions& options);
 

@@ -34,11 +34,11 @@ public:
     /// Shares are by the components of the first machine.
     /// @throws InputError for a machine that has others
     CampbellPoint solve(PointSolver& solver, double rotor_speed);
-    /// Of the last known mode of every track with the modes of a point that is to be the next.
+    /// MAC of the last known mode of every track with the modes of a point that is to be the next.
     PeriodicMac likeness(const PointSolver& solver, const CampbellPoint& point) const;
     /// Tracker::continues() up to the largest frequency of the options.
     bool continues(const PeriodicMac& likeness, const CampbellPoint& point) const;
-    /// Without shapes (CampbellOptions::keep_shapes), which need the machine at the end.
+    /// Adds a point without shapes (CampbellOptions::keep_shapes), which need the machine at the end.
     /// @param parameter  its place on the axis, where that is not of rotor speeds
     void add(CampbellPoint point, const PeriodicMac& likeness, double parameter);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Where the search for a steady state with loops begins.
+/// Start of the search for a steady state with loops.
 #pragma once
 
 #include "mbs/system/system.hpp"
@@ -12,7 +12,7 @@ namespace cardan::solvers {
 /// @throws NumericalError if the loops cannot be closed
 Vector closed_position(const System& system, int spin, double time, const Vector& q);
 
-/// What the loops do at a closed position.
+/// State of the loops at a closed position.
 struct LoopStart {
     std::vector<int> equations;  ///< those that are independent
     Vector lambda;               ///< multipliers that come nearest to carry the load; zero for the other equations

@@ -11,11 +11,11 @@
 
 namespace cardan::solvers {
 
-/// Which of the part's axes each coordinate follows, at the q of the kinematics.
+/// Names the axis of the part that each coordinate follows, at the q of the kinematics.
 /// @param axes  of the part, in base axes
 std::vector<std::string> coordinate_families(const Kinematics& kin, const PartAxes& part, const Mat3& axes,
                                              const std::vector<int>& own);
-/// The same at q = 0, with the part's own axes.
+/// Names the axis of the part that each coordinate follows at q = 0, with the part's own axes.
 std::vector<std::string> coordinate_families(const Model& model, const PartAxes& part, const std::vector<int>& own);
 
 /// The family whose coordinates hold most of the energy of v.

@@ -10,7 +10,7 @@
 
 namespace cardan::solvers {
 
-/// What a branch is to be named after.
+/// The label that a branch is named after.
 struct Naming {
     Label label;
     bool another = false;  ///< a branch that it fits better has that name

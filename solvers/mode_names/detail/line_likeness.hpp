@@ -1,5 +1,5 @@
 /// @file
-/// How alike two machines move, by the lines of their parts. Internal: not for users of the library.
+/// Likeness of the motions of two machines, by the lines of their parts. Internal: not for users of the library.
 #pragma once
 
 #include "solvers/campbell_data/diagram.hpp"

@@ -1,5 +1,6 @@
 /// @file
-/// What a mode may be named after, and how sure a name is at one rotor speed. Internal: not for users of the library.
+/// Labels that a mode may be named after, and how sure a name is at one rotor speed. Internal: not for users of the
+/// library.
 #pragma once
 
 #include "solvers/campbell_data/diagram.hpp"
@@ -35,7 +36,7 @@ public:
     /// EnergyFraction of a mode under a label, 0 ... 1. At standstill there is no whirl: backward and forward get equal
     /// shares.
     static double part(const CampbellMode& mode, const Label& label);
-    /// Likewise, but at standstill what is under the label of a whirl holds the energy of its pair.
+    /// Share of the energy under a label; at standstill that of a whirl counts its pair.
     static double held(double rotor_speed, const CampbellMode& mode, const Label& label);
     /// The label with the largest share; `own` if none is larger. Nothing whirls at standstill: a name there holds the
     /// energy of its pair.
@@ -43,8 +44,9 @@ public:
     /// Label that holds `certain_share` of the energy of a mode, whatever it is followed from; null: none. At
     /// standstill either of a pair.
     const Label* certain(double rotor_speed, const CampbellMode& mode) const;
-    /// Why a label is in doubt for a mode: its component holds less than half of the elastic energy, another one has
-    /// `rival_share` of it, another pattern has as much, or the blades do not move in the pattern. Empty: it is sure.
+    /// Reason why a label is in doubt for a mode: its component holds less than half of the elastic energy, another one
+    /// has `rival_share` of it, another pattern has as much, or the blades do not move in the pattern. Empty: it is
+    /// sure.
     std::string doubt(double rotor_speed, const CampbellMode& mode, const Label& label) const;
     /// "1st blade flap (backward)"; of a coordinate with the kind of the motion
     std::string name(const Label& label, const CampbellMode& mode) const;

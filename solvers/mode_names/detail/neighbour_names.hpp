@@ -10,7 +10,7 @@
 
 namespace cardan::solvers {
 
-/// Which branch of the neighbour a branch continues. Decided once per branch, by the sum of the MAC over all rotor
+/// The branch of the neighbour that a branch continues. Decided once per branch, by the sum of the MAC over all rotor
 /// speeds that both diagrams have, rather than at the first speed: that is usually standstill, where nothing whirls and
 /// pairs lie close together; and where modes veer within the sweep the two variants may be linked crosswise from there
 /// on, which only the sum detects. Where two curves exchange their characters it goes by points (HandOver). A branch is

@@ -1,5 +1,5 @@
 /// @file
-/// What motions of states of first order are called. Internal to solvers/mode_names: not installed.
+/// Names of the motions of states of first order. Internal to solvers/mode_names: not installed.
 #pragma once
 
 #include "solvers/campbell_data/diagram.hpp"

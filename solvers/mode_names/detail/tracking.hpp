@@ -15,7 +15,7 @@ namespace cardan::solvers {
 /// Score between 0 and 1 below which two modes are never taken for the same.
 inline constexpr double min_score = 0.1;
 
-/// What a branch is of.
+/// Contents of a branch.
 enum class BranchesOf : std::uint8_t {
     names,   ///< modes of one name: where two curves exchange their characters, modes go over (HandOver)
     curves,  ///< modes of one track, whatever becomes of them
@@ -28,7 +28,8 @@ public:
     /// Complex energy MAC of the last known mode of every track (rows) with the modes of a point (columns).
     /// @param system  the (transformed) system of the point: its energy product weighs the MAC
     Matrix mac(const SecondOrderSystem& system, const CampbellPoint& point) const;
-    /// With a score and MAC from mac() or periodic_mac(): one row per track (see last()), one column per mode.
+    /// Adds a point by its score and MAC from mac() or periodic_mac(): one row per track (see last()), one column per
+    /// mode.
     /// @param score  the assignment maximises its sum; below min_score a track ends
     /// @param mac    kept with the branch
     /// @throws InputError for matrices of another size

@@ -1,5 +1,5 @@
 /// @file
-/// What a search for limits of stability could not tell. Internal to solvers/stability: not installed.
+/// Notes on what a search for limits of stability leaves open. Internal to solvers/stability: not installed.
 #pragma once
 
 #include "solvers/campbell/diagram.hpp"
@@ -14,7 +14,7 @@ namespace cardan::solvers {
 /// Motions that may flutter; of Floquet's theory also those that are locked to the rotor.
 bool vibrates(const CampbellMode& mode);
 
-/// How much faster a mode grows than what is rounding, 1/s.
+/// Growth of a mode beyond rounding, 1/s.
 /// @param growth  StabilityOptions::growth
 double excess(const Mode& mode, double growth);
 
@@ -33,7 +33,8 @@ public:
     void add(const std::string& note);
     /// The next point, with all its modes.
     void see(double parameter, const CampbellPoint& point);
-    /// What grows without a limit of its own, and what is not followed although it grows, or is all that vibrates.
+    /// Notes what grows without a limit of its own, and what is not followed although it grows, or is all that
+    /// vibrates.
     /// @param diagram  of the points that were seen
     void tell_growth(const Campbell& diagram);
     const std::string& words() const { return words_; }

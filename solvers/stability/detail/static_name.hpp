@@ -1,5 +1,5 @@
 /// @file
-/// What a static motion is called. Internal: not for users of the library.
+/// Names of static motions. Internal: not for users of the library.
 #pragma once
 
 #include "solvers/campbell/point.hpp"

@@ -21,7 +21,7 @@ struct StaticRoots {
     double sigma = 0;                 ///< near the lowest frequency, rad/s
     std::vector<double> values = {};  ///< ascending
     Matrix shapes = {};               ///< their vectors, by column, over the rows of the system
-    /// Of all roots, complex ones included: of those of K_static, it changes its sign where one of them is zero.
+    /// Product of all roots, complex ones included; that of K_static changes its sign where one of them is zero.
     double product = 1;
 };
 
