@@ -235,7 +235,7 @@ TEST_CASE("variable-speed equivalent: widths that meet and a torque below the ra
     check_refused(with({.pitch = 0}), {"rounding of the limits of the pitch = 0"});
     VariableSpeedParameters weak = parameters;
     weak.max_torque = 43000;
-    check_refused([&] { (void)variable_speed_equivalent(weak, measured, {}); }, {"largest torque [N m] = 43000"});
+    check_refused([&] { (void)variable_speed_equivalent(weak, measured, {}); }, {"maximum torque [N m] = 43000"});
 }
 
 }  // namespace cardan::testing::variable_speed_equivalent_tests
