@@ -12,16 +12,16 @@ namespace cardan {
 /// Refers to all it is made of, which must live longer. Not for several threads at once.
 class DynamicView : public StateView {
 public:
-    /// @param forces  those that act
+    /// @param acting  the forces
     /// @param loops   whose multipliers are DynamicState::lambda
     DynamicView(const DynamicState& state CARDAN_LIFETIME_BOUND, const Kinematics& kin,
-                const Forces& forces CARDAN_LIFETIME_BOUND, const Loops& loops CARDAN_LIFETIME_BOUND)
+                const Forces& acting CARDAN_LIFETIME_BOUND, const Loops& loops CARDAN_LIFETIME_BOUND)
         : StateView(state, kin),
           qdd(state.qdd),
           s_rate(state.s_rate),
           actuator(state.actuator),
           lambda(state.lambda),
-          forces(forces),
+          forces(acting),
           loops_(&loops) {}
 
     /// Motion and joint loads of all bodies. The first call computes them.
