@@ -169,7 +169,7 @@ int steady_in_wind(const turbines::Machine& machine, SteadyArguments& a, const s
             "%.1e rad or m\n",
             a.revolution.harmonics, run.truncation_residual);
     if (run.truncation_residual > 1e-4)
-        std::printf("that is little for means, but much for the least and largest loads: take more, --harmonics\n");
+        std::printf("that is little for means, but much for the minimum and maximum loads: take more, --harmonics\n");
     if (run.complete) tell_mesh(run, results, a.revolution);
     print(results);
     std::printf("\nfiles: %s.h5, .csv, _sections.csv", a.out.c_str());

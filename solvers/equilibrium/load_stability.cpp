@@ -32,17 +32,21 @@ public:
     Scan(const System& system, const LoadStabilityOptions& options)
         : system_(system), options_(options), unknowns_(system.model.coordinates().free_without(options.spin)) {}
 
-    // None if there is no equilibrium; then `message` says why. `q` is the start and becomes the equilibrium.
-    std::optional<LoadStabilityPoint> at(double factor, Vector& q) {
+    struct Found {
+        LoadStabilityPoint point;
+        Vector q;  // the equilibrium
+    };
+
+    // None if there is no equilibrium; then `message` says why.
+    std::optional<Found> at(double factor, const Vector& start) {
         const System loaded = under_load(system_, factor, options_.gravity);
         SteadyOptions state = options_.state;
-        state.initial = q;
+        state.initial = start;
         const SteadyState found = steady_state(loaded, options_.spin, state);
         if (!found.converged) {
             message = text("load stability: no equilibrium at load factor ", factor, ": ", found.message);
             return std::nullopt;
         }
-        q = found.at.q;
         LoadStabilityPoint point{factor, Instability::none, {}};
         double worst = -2;  // Re / |.| lies between -1 and 1
         for (const Mode& mode : modes(reduce_loops(linearise(loaded, found.at), unknowns_).system)) {
@@ -52,7 +56,7 @@ public:
             point.eigenvalue = mode.eigenvalue;
         }
         point.kind = kind_of(point.eigenvalue, options_.growth);
-        return point;
+        return Found{point, found.at.q};
     }
 
     std::string message;
@@ -69,50 +73,39 @@ LoadStability load_stability(const System& system, const LoadStabilityOptions& o
     check(options);
     Scan scan(system, options);
     LoadStability result;
-    Vector q = options.state.initial;
-    for (int i = 0; i <= options.steps; ++i) {
+    Scan::Found stable{{options.from, Instability::none, {}}, options.state.initial};
+    std::optional<Scan::Found> unstable;
+    // False: there is no equilibrium.
+    const auto step_to = [&](double factor) {
+        std::optional<Scan::Found> found = scan.at(factor, stable.q);
+        if (!found) {
+            result.message = scan.message;
+            return false;
+        }
+        if (found->point.kind == Instability::none)
+            stable = std::move(*found);
+        else
+            unstable = std::move(found);
+        const LoadStabilityPoint& last = unstable ? unstable->point : stable.point;
+        result.factor = last.factor;
+        result.eigenvalue = last.eigenvalue;
+        result.kind = last.kind;
+        result.stable_factor = stable.point.factor;
+        return true;
+    };
+    for (int i = 0; i <= options.steps && !unstable; ++i) {
         const double factor = i == options.steps
                                   ? options.to
                                   : options.from + (options.to - options.from) * static_cast<double>(i) / options.steps;
-        const Vector before = q;
-        const auto point = scan.at(factor, q);
-        if (!point) {
-            result.message = scan.message;
-            return result;
-        }
-        result.points.push_back(*point);
-        result.factor = factor;
-        result.eigenvalue = point->eigenvalue;
-        result.kind = point->kind;
-        if (point->kind == Instability::none) {
-            result.stable_factor = factor;
-            continue;
-        }
-        if (i == 0) {
-            result.stable_factor = factor;
-            result.note = text("unstable already at the first load factor ", factor);
-            break;
-        }
-        q = before;
-        while (result.factor - result.stable_factor > options.tolerance) {
-            const double middle = (result.factor + result.stable_factor) / 2;
-            if (middle <= result.stable_factor || middle >= result.factor) break;
-            Vector q_middle = q;
-            const auto refined = scan.at(middle, q_middle);
-            if (!refined) {
-                result.message = scan.message;
-                return result;
-            }
-            if (refined->kind == Instability::none) {
-                result.stable_factor = middle;
-                q = q_middle;
-            } else {
-                result.factor = middle;
-                result.eigenvalue = refined->eigenvalue;
-                result.kind = refined->kind;
-            }
-        }
-        break;
+        if (!step_to(factor)) return result;
+        result.points.push_back({result.factor, result.kind, result.eigenvalue});
+    }
+    if (result.points.size() == 1 && unstable)
+        result.note = text("unstable already at the first load factor ", result.factor);
+    while (unstable && result.factor - result.stable_factor > options.tolerance) {
+        const double middle = (result.factor + result.stable_factor) / 2;
+        if (middle <= result.stable_factor || middle >= result.factor) break;
+        if (!step_to(middle)) return result;
     }
     result.converged = true;
     return result;

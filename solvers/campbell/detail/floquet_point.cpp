@@ -221,7 +221,7 @@ void PeriodicPointSolver::warn_of_differing_blades() {
     else
         warn_once(
             text(where,
-                 "what acts on the blades differs, as on curves of profiles with kinks, where a section may have one "
+                 "what acts on the blades differs, as on curves of airfoils with kinks, where a section may have one "
                  "slope on one blade and another on the next; mass and springs are alike, and the mean over the "
                  "azimuth has the mean of the slopes"));
 }
