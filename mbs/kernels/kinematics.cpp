@@ -43,8 +43,7 @@ void WorkspaceT<S>::find_entraining(const Model& model) {
         entry(place, k) = static_cast<int>(entraining.size());
         const int parent = model.body(k).parent;
         const bool has = own < std::ssize(model.added_masses()) && entry(model.added_masses(), own).body == k;
-        entraining.push_back({k, parent < 0 ? -1 : entry(place, parent), has ? own++ : -1, Mat6T<S>::Zero(),
-                              Mat6T<S>::Zero(), Vec6T<S>::Zero()});
+        entraining.push_back({k, parent < 0 ? -1 : entry(place, parent), has ? own++ : -1});
     }
 }
 
