@@ -16,7 +16,9 @@ room(mbs/urdf SEES mbs/system USES urdfdom) # robots as files
 room(elements/sections SEES mbs/model) # cross sections, reference lines
 room(elements/machine_elements SEES mbs/system) # joints, drives, brakes, generators, stops, loads
 room(elements/controllers SEES mbs/system USES dl) # signals, filters, actuators, controllers
-room(elements/aerodynamics SEES mbs/model USES boost) # polars, wind, blade-element momentum
+room(elements/wind SEES mbs/base) # wind over place and time: shear, tables, gusts, turbulent boxes
+room(elements/turbulence SEES elements/wind USES boost fft) # spectra and tensors of turbulence, boxes made from them
+room(elements/aerodynamics SEES mbs/model elements/wind USES boost) # polars, blade-element momentum
 room(elements/electric SEES elements/machine_elements elements/controllers) # circuits, electric machines, the grid
 room(elements/cardan_beam SEES elements/sections elements/machine_elements) # the cardanic joint beam element
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "elements/aerodynamics/section_air.hpp"
-#include "elements/aerodynamics/wind.hpp"
+#include "elements/wind/wind.hpp"
 
 #include <vector>
 

@@ -16,7 +16,7 @@
 #pragma once
 
 #include "elements/aerodynamics/tower.hpp"
-#include "elements/aerodynamics/wind.hpp"
+#include "elements/wind/wind.hpp"
 #include "turbines/model/assembly.hpp"
 
 #include <memory>

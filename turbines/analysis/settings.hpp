@@ -13,7 +13,7 @@
 /// Errors name a field as it stands here: "SimulationSettings::tolerance".
 #pragma once
 
-#include "elements/aerodynamics/wind.hpp"
+#include "elements/wind/wind.hpp"
 #include "elements/controllers/variable_speed_controller.hpp"
 #include "solvers/time/integrate.hpp"
 #include "turbines/actuators/actuators.hpp"

@@ -2,7 +2,7 @@
 /// A wind as text, for results: YAML of our own.
 #pragma once
 
-#include "elements/aerodynamics/wind.hpp"
+#include "elements/wind/wind.hpp"
 
 #include <optional>
 #include <string>

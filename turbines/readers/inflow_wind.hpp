@@ -2,7 +2,7 @@
 /// Winds from files: InflowWind of OpenFAST, steady and uniform over time, and tables of our own.
 #pragma once
 
-#include "elements/aerodynamics/wind.hpp"
+#include "elements/wind/wind.hpp"
 #include "turbines/readers/turbine_file.hpp"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // Derivatives of what the air does to a section, against differences of the same; the wind's slope.
 #include "elements/aerodynamics/section_air.hpp"
-#include "elements/aerodynamics/wind.hpp"
+#include "elements/wind/wind.hpp"
 #include "mbs/base/types.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "elements/aerodynamics/tower.hpp"
-#include "elements/aerodynamics/wind.hpp"
+#include "elements/wind/wind.hpp"
 #include "turbines/aerodynamics/detail/air_line.hpp"
 #include "turbines/aerodynamics/detail/body_motion.hpp"
 #include "turbines/model/assembly.hpp"

@@ -1,4 +1,4 @@
-#include "elements/aerodynamics/wind.hpp"
+#include "elements/wind/wind.hpp"
 
 #include "mbs/base/elementary.hpp"
 #include "mbs/base/error.hpp"

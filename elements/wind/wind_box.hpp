@@ -1,0 +1,135 @@
+/// @file
+/// Wind on a grid across it, over time, wherever the numbers lie: in a file that is mapped, or in memory.
+///
+/// Axes of a box: x downwind, y to the left as seen along the wind, z up, heights from the ground. The air is carried
+/// through the grid with the box's speed and does not change on its way (frozen turbulence [Taylor]): a place x
+/// downwind of the grid sees at t what the grid saw at t - x/speed.
+#pragma once
+
+#include "mbs/base/types.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cardan {
+
+/// One component of the velocity as a field of numbers in memory, of which velocity = offset + scale number, m/s. The
+/// number of step t, row k, column j lies at data + (t steps + k rows + j columns), counted in numbers.
+struct BoxNumbers {
+    enum class Type : std::uint8_t { int16, float32 };
+
+    const void* data = nullptr;  ///< of step 0, row 0, column 0; aligned or not
+    Type type = Type::float32;
+    std::ptrdiff_t step = 0, row = 0, column = 0;  ///< strides, which may be negative
+    double scale = 1, offset = 0;
+};
+
+/// The grid of a box.
+struct BoxGrid {
+    int steps = 0;               ///< planes, at least 2
+    int rows = 0, columns = 0;   ///< upward and to the left, at least 2
+    double time_step = 0;        ///< between planes, s
+    double row_spacing = 0;      ///< m
+    double column_spacing = 0;   ///< m
+    double lowest = 0;           ///< height of the first row, m
+
+    double width() const { return (columns - 1) * column_spacing; }
+    double height() const { return (rows - 1) * row_spacing; }
+    double duration() const { return steps * time_step; }  ///< of a periodic box, s
+    friend bool operator==(const BoxGrid&, const BoxGrid&) = default;
+};
+
+/// Points on a vertical line below the grid: numbers with `row` as the stride from the first, at the height of the
+/// grid's first row less one spacing or where `highest` says, downward.
+struct BoxTower {
+    std::array<BoxNumbers, 3> components;  ///< `column` is not used
+    int points = 0;
+    double highest = 0;  ///< height of the first point, m
+    double spacing = 0;  ///< of those below, m
+};
+
+/// What the wind is below the grid.
+enum class BelowBox : std::uint8_t {
+    refuse,    ///< there is none: an error
+    tower,     ///< linear from the first row down the points of BoxTower, from the lowest of which to zero at the ground
+    to_ground  ///< linear from the first row to zero at the ground
+};
+
+/// What the wind is beside and above the grid, before and after its planes.
+enum class OutsideBox : std::uint8_t {
+    refuse,  ///< there is none: an error
+    hold,    ///< as on the nearest edge, and as in the first and the last plane
+    repeat   ///< the box again, in time and across; above and below as hold
+};
+const char* name_of(OutsideBox outside);
+
+/// Where a box came from, for results.
+struct BoxOrigin {
+    std::string file;      ///< as it was given; empty: it was made here
+    std::string format;    ///< "TurbSim .bts", ...
+    std::string checksum;  ///< of all that was read, 16 hexadecimal digits: checksum_of()
+    std::string note;      ///< what the file says of itself, such as the program and its seed
+};
+
+/// A box as data.
+struct WindBoxData {
+    BoxGrid grid;
+    std::array<BoxNumbers, 3> components;  ///< u, v, w: along x, y, z
+    std::optional<BoxTower> tower = {};
+    std::vector<double> means = {};  ///< taken off u at every point: rows times columns, by rows; empty: nothing is
+    double speed = 0;                ///< with which the air passes the grid, > 0, m/s
+    double start = 0;                ///< x of the first plane at t = 0, m: places see it at t = (x - start)/speed
+    bool periodic = false;           ///< after the last plane comes the first
+    BelowBox below = BelowBox::refuse;
+    OutsideBox outside = OutsideBox::refuse;
+    BoxOrigin origin = {};
+    std::shared_ptr<const void> memory = {};  ///< keeps the numbers alive
+};
+
+/// Wind of a box at places and times. Immutable, may be used by several threads.
+class WindBox {
+public:
+    /// @throws InputError for a grid without two planes, rows or columns, spacings and a speed that are not positive
+    explicit WindBox(WindBoxData data);
+
+    struct Sample {
+        Vec3 velocity;                 ///< m/s
+        Mat3 gradient = Mat3::Zero();  ///< dW_i/dx_j, 1/s: exact between the points of the grid, where the wind is linear
+    };
+    /// Linear in time and across, of eight numbers of the box. Not above the ground there is no wind.
+    /// @throws InputError for a place or a time outside, unless OutsideBox says what is there
+    Vec3 at(const Vec3& place, double time) const;
+    Sample with_gradient(const Vec3& place, double time) const;
+
+    const WindBoxData& data() const { return data_; }
+    const BoxGrid& grid() const { return data_.grid; }
+    /// Velocity at a point of the grid, m/s.
+    Vec3 at_point(int step, int row, int column) const;
+    /// Mean and standard deviation of each component over all planes, at a point of the grid.
+    struct Statistics {
+        Vec3 mean, deviation;  ///< deviation: of the population, m/s
+    };
+    Statistics statistics(int row, int column) const;
+    /// Same numbers, with another answer to what is outside.
+    WindBox with_outside(OutsideBox outside) const;
+
+private:
+    template <bool slopes>
+    Sample sample(const Vec3& place, double time) const;
+
+    WindBoxData data_;
+};
+
+/// FNV-1a of bytes, 64 bits, taken eight at a time; go on with an earlier one.
+std::uint64_t checksum_of(std::span<const std::byte> bytes, std::uint64_t before = 0xcbf29ce484222325ULL);
+/// As 16 hexadecimal digits.
+std::string checksum_text(std::uint64_t checksum);
+
+}  // namespace cardan
