@@ -5,6 +5,7 @@
 #include "elements/wind/wind_box.hpp"
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace cardan {
@@ -16,7 +17,7 @@ struct TurbulenceBox {
     std::array<std::vector<float>, 3> velocity;  ///< u, v, w of [step][row][column], m/s
 
     std::size_t index(int step, int row, int column) const {
-        return (static_cast<std::size_t>(step) * grid.rows + row) * grid.columns + column;
+        return static_cast<std::size_t>((std::ptrdiff_t{step} * grid.rows + row) * grid.columns + column);
     }
 };
 

@@ -29,16 +29,18 @@ struct BoxNumbers {
     Type type = Type::float32;
     std::ptrdiff_t step = 0, row = 0, column = 0;  ///< strides, which may be negative
     double scale = 1, offset = 0;
+    int file = 0;             ///< of BoxOrigin::files, in which they lie
+    std::uint64_t place = 0;  ///< of the number of step 0, row 0, column 0 in that file, bytes
 };
 
 /// The grid of a box.
 struct BoxGrid {
-    int steps = 0;               ///< planes, at least 2
-    int rows = 0, columns = 0;   ///< upward and to the left, at least 2
-    double time_step = 0;        ///< between planes, s
-    double row_spacing = 0;      ///< m
-    double column_spacing = 0;   ///< m
-    double lowest = 0;           ///< height of the first row, m
+    int steps = 0;              ///< planes, at least 2
+    int rows = 0, columns = 0;  ///< upward and to the left, at least 2
+    double time_step = 0;       ///< between planes, s
+    double row_spacing = 0;     ///< m
+    double column_spacing = 0;  ///< m
+    double lowest = 0;          ///< height of the first row, m
 
     double width() const { return (columns - 1) * column_spacing; }
     double height() const { return (rows - 1) * row_spacing; }
@@ -46,19 +48,18 @@ struct BoxGrid {
     friend bool operator==(const BoxGrid&, const BoxGrid&) = default;
 };
 
-/// Points on a vertical line below the grid: numbers with `row` as the stride from the first, at the height of the
-/// grid's first row less one spacing or where `highest` says, downward.
+/// Points on a vertical line below the grid, numbered downward, which stand for the wind at all places beside them.
 struct BoxTower {
-    std::array<BoxNumbers, 3> components;  ///< `column` is not used
+    std::array<BoxNumbers, 3> components;  ///< `row` is the stride from point to point, `column` is not used
     int points = 0;
     double highest = 0;  ///< height of the first point, m
-    double spacing = 0;  ///< of those below, m
+    double spacing = 0;  ///< between them, m
 };
 
 /// What the wind is below the grid.
 enum class BelowBox : std::uint8_t {
-    refuse,    ///< there is none: an error
-    tower,     ///< linear from the first row down the points of BoxTower, from the lowest of which to zero at the ground
+    refuse,  ///< there is none: an error
+    tower,   ///< linear from the first row down the points of BoxTower, from the lowest of which to zero at the ground
     to_ground  ///< linear from the first row to zero at the ground
 };
 
@@ -72,10 +73,10 @@ const char* name_of(OutsideBox outside);
 
 /// Where a box came from, for results.
 struct BoxOrigin {
-    std::string file;      ///< as it was given; empty: it was made here
-    std::string format;    ///< "TurbSim .bts", ...
-    std::string checksum;  ///< of all that was read, 16 hexadecimal digits: checksum_of()
-    std::string note;      ///< what the file says of itself, such as the program and its seed
+    std::vector<std::string> files;  ///< whose bytes the numbers are, as they were given; empty: made in memory
+    std::string format;              ///< "TurbSim .bts", ...
+    std::string checksum;            ///< of these files, one after the other: checksum_text()
+    std::string note;                ///< what the file says of itself, such as the program and its seed
 };
 
 /// A box as data.
@@ -100,10 +101,12 @@ public:
     explicit WindBox(WindBoxData data);
 
     struct Sample {
-        Vec3 velocity;                 ///< m/s
-        Mat3 gradient = Mat3::Zero();  ///< dW_i/dx_j, 1/s: exact between the points of the grid, where the wind is linear
+        Vec3 velocity;  ///< m/s
+        Mat3 gradient =
+            Mat3::Zero();  ///< dW_i/dx_j, 1/s: exact between the points of the grid, where the wind is linear
     };
-    /// Linear in time and across, of eight numbers of the box. Not above the ground there is no wind.
+    /// Interpolates linearly in time and across, between eight points of the box. At and below the ground there is no
+    /// wind.
     /// @throws InputError for a place or a time outside, unless OutsideBox says what is there
     Vec3 at(const Vec3& place, double time) const;
     Sample with_gradient(const Vec3& place, double time) const;
@@ -117,17 +120,21 @@ public:
         Vec3 mean, deviation;  ///< deviation: of the population, m/s
     };
     Statistics statistics(int row, int column) const;
-    /// Same numbers, with another answer to what is outside.
+    /// A box of the same numbers, with another answer to what is outside.
     WindBox with_outside(OutsideBox outside) const;
 
 private:
+    template <class Number, bool slopes>
+    void add_grid(const Vec3& place, double time, Sample& out) const;
     template <bool slopes>
     Sample sample(const Vec3& place, double time) const;
 
     WindBoxData data_;
 };
 
-/// FNV-1a of bytes, 64 bits, taken eight at a time; go on with an earlier one.
+/// FNV-1a of bytes, 64 bits, but eight bytes at a time, which is eight times as fast; the last ones, fewer than eight,
+/// one at a time.
+/// @param before  checksum of what comes before these bytes
 std::uint64_t checksum_of(std::span<const std::byte> bytes, std::uint64_t before = 0xcbf29ce484222325ULL);
 /// As 16 hexadecimal digits.
 std::string checksum_text(std::uint64_t checksum);
