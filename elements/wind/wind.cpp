@@ -1,12 +1,12 @@
 #include "elements/wind/wind.hpp"
 
-#include "mbs/base/elementary.hpp"
 #include "mbs/base/error.hpp"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace cardan {
@@ -20,119 +20,43 @@ constexpr std::array changing{
     &SteadyWind::density,  &SteadyWind::lateral,          &SteadyWind::gust,     &SteadyWind::vertical,
     &SteadyWind::ground};
 
-Vec3 left_of(double direction) {
-    return {-std::sin(direction), std::cos(direction), 0};
+// Linear between the rows.
+SteadyWind row_at(const std::vector<double>& times, const std::vector<SteadyWind>& rows, double time) {
+    const auto next = std::upper_bound(times.begin(), times.end(), time);
+    if (next == times.begin()) return rows.front();
+    if (next == times.end()) return rows.back();
+    const auto i = static_cast<std::size_t>(next - times.begin());
+    const SteadyWind &from = rows[i - 1], &to = rows[i];
+    const double t = (time - times[i - 1]) / (times[i] - times[i - 1]);
+    SteadyWind out = from;
+    for (const auto value : changing) out.*value = (1 - t) * from.*value + t * to.*value;
+    return out;
+}
+
+// Speed and exponent of a power law through the mean wind of a box, over its planes at the middle column.
+void take_mean(const WindBox& box, SteadyWind& profile) {
+    const BoxGrid& grid = box.grid();
+    std::vector<double> heights, speeds;
+    for (int row = 0; row < grid.rows; ++row) {
+        heights.push_back(grid.lowest + row * grid.row_spacing);
+        speeds.push_back(box.statistics(row, grid.columns / 2).mean.x());
+    }
+    const double at = std::clamp((profile.reference_height - grid.lowest) / grid.row_spacing, 0.0, grid.rows - 1.0);
+    const auto below = static_cast<std::size_t>(std::min(static_cast<int>(at), grid.rows - 2));
+    profile.speed = std::max(0.0, std::lerp(speeds[below], speeds[below + 1], at - static_cast<double>(below)));
+    profile.shear = Shear::none;
+    double product = 0, square = 0;
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        if (!(heights[i] > 0 && speeds[i] > 0 && profile.speed > 0)) return;
+        const double x = std::log(heights[i] / profile.reference_height);
+        product += x * std::log(speeds[i] / profile.speed);
+        square += x * x;
+    }
+    profile.shear = Shear::power;
+    profile.exponent = std::clamp(product / square, -1.0, 1.0);
 }
 
 }  // namespace
-
-double SteadyWind::height(const Vec3& place) const {
-    return std::max(place.z() - ground, 1e-3 * reference_height);
-}
-
-double SteadyWind::law(double z) const {
-    if (shear == Shear::power) return std::pow(z / reference_height, exponent);
-    if (shear == Shear::logarithmic)
-        return std::max(0.0, std::log(z / roughness) / std::log(reference_height / roughness));
-    return 1;
-}
-
-double SteadyWind::size(const Vec3& place, double z, double law, const Vec3& left) const {
-    return speed * (law + gradient * (z - reference_height) + lateral * place.dot(left)) + gust;
-}
-
-Vec3 SteadyWind::along(double to) const {
-    const double level = std::cos(upflow);
-    return {level * std::cos(to), level * std::sin(to), std::sin(upflow)};
-}
-
-Vec3 SteadyWind::at(const Vec3& place) const {
-    return WindAtPlaces(*this).at(place);
-}
-
-WindAtPlaces::WindAtPlaces(const SteadyWind& wind)
-    : wind_(wind), along_(wind.along(wind.direction)), left_(left_of(wind.direction)) {}
-
-Vec3 WindAtPlaces::at(const Vec3& place) const {
-    const double z = wind_.height(place);
-    return at(place, z, wind_.law(z));
-}
-
-void WindAtPlaces::at(std::span<const Vec3> places, std::span<Vec3> out) const {
-    constexpr std::size_t max = 64;
-    std::array<double, max> ratios = {}, laws = {};
-    for (std::size_t first = 0; first < places.size(); first += max) {
-        const std::size_t n = std::min(max, places.size() - first);
-        const std::span<const Vec3> own = places.subspan(first, n);
-        if (wind_.shear == Shear::power) {
-            for (std::size_t i = 0; i < n; ++i) ratios[i] = wind_.height(own[i]) / wind_.reference_height;
-            powers(std::span(ratios).first(n), wind_.exponent, laws);
-        } else {
-            for (std::size_t i = 0; i < n; ++i) laws[i] = wind_.law(wind_.height(own[i]));
-        }
-        for (std::size_t i = 0; i < n; ++i) out[first + i] = at(own[i], wind_.height(own[i]), laws[i]);
-    }
-}
-
-Vec3 WindAtPlaces::at(const Vec3& place, double z, double law) const {
-    Vec3 out = wind_.size(place, z, law, left_) *
-               (wind_.veer == 0 ? along_ : wind_.along(wind_.direction + wind_.veer * (z - wind_.reference_height)));
-    out.z() += wind_.vertical;
-    return out;
-}
-
-Mat3 SteadyWind::gradient_at(const Vec3& place) const {
-    if (is_uniform()) return Mat3::Zero();
-    const double z = height(place), to = direction + veer * (z - reference_height);
-    const Vec3 left = left_of(direction);
-    Vec3 slope = lateral * left;
-    double turning = 0;
-    if (place.z() - ground >= z) {
-        slope.z() = gradient;
-        if (shear == Shear::power) slope.z() += exponent * law(z) / z;
-        if (shear == Shear::logarithmic && z > roughness) slope.z() += 1 / (z * std::log(reference_height / roughness));
-        turning = veer * size(place, z, law(z), left);
-    }
-    Mat3 out = speed * along(to) * slope.transpose();
-    out.col(2) += turning * std::cos(upflow) * left_of(to);
-    return out;
-}
-
-bool SteadyWind::is_uniform() const {
-    const bool lawless = shear == Shear::none || (shear == Shear::power && exponent == 0);
-    return lawless && gradient == 0 && lateral == 0 && veer == 0;
-}
-
-void SteadyWind::check() const {
-    require_not_negative("wind", "speed [m/s]", speed);
-    require_positive("wind", "reference height [m]", reference_height);
-    require_positive("wind", "density of the air [kg/m^3]", density);
-    for (const auto& [name, value] : {std::pair("exponent of the shear", exponent),
-                                      {"gradient over the height [1/m]", gradient},
-                                      {"gradient across the wind [1/m]", lateral},
-                                      {"direction [rad]", direction},
-                                      {"veer [rad/m]", veer},
-                                      {"upflow [rad]", upflow},
-                                      {"gust [m/s]", gust},
-                                      {"vertical speed [m/s]", vertical},
-                                      {"height of the ground [m]", ground}})
-        if (!std::isfinite(value)) throw InputError("wind", name, value, "finite");
-    for (const auto& [name, value, max] : {std::tuple("speed [m/s]", speed, 1e3),
-                                           {"gust [m/s]", gust, 1e3},
-                                           {"vertical speed [m/s]", vertical, 1e3},
-                                           {"reference height [m]", reference_height, 1e5},
-                                           {"density of the air [kg/m^3]", density, 1e4},
-                                           {"exponent of the shear", exponent, 10.0},
-                                           {"gradient over the height [1/m]", gradient, 1e3},
-                                           {"gradient across the wind [1/m]", lateral, 1e3},
-                                           {"direction [rad]", direction, 4 * pi},
-                                           {"veer [rad/m]", veer, 1e3},
-                                           {"upflow [rad]", upflow, pi / 2}})
-        if (std::abs(value) > max) throw InputError("wind", name, value, text(-max, " ... ", max));
-    if (shear == Shear::logarithmic && !(roughness > 0 && roughness < reference_height))
-        throw InputError("wind", "roughness [m]", roughness,
-                         text("0 ... ", reference_height, ", the reference height"));
-}
 
 Wind::Wind(const SteadyWind& steady) : times_{0}, rows_{steady} {
     steady.check();
@@ -155,25 +79,50 @@ Wind::Wind(std::vector<double> times, std::vector<SteadyWind> rows) : times_(std
     }
 }
 
-SteadyWind Wind::at(double time) const {
-    const auto next = std::upper_bound(times_.begin(), times_.end(), time);
-    if (next == times_.begin()) return rows_.front();
-    if (next == times_.end()) return rows_.back();
-    const auto i = static_cast<std::size_t>(next - times_.begin());
-    const SteadyWind &from = rows_[i - 1], &to = rows_[i];
-    const double t = (time - times_[i - 1]) / (times_[i] - times_[i - 1]);
-    SteadyWind out = from;
-    for (const auto value : changing) out.*value = (1 - t) * from.*value + t * to.*value;
+Wind::Wind(std::shared_ptr<const WindBox> box, const SteadyWind& profile)
+    : times_{0}, rows_{profile}, box_(std::move(box)) {
+    profile.check();
+    if (!box_) throw InputError("wind", "box", "none", "one; a steady wind needs none");
+}
+
+SteadyWind Wind::profile(double time) const {
+    const SteadyWind now = row_at(times_, rows_, time);
+    return gust_ ? gust_->applied(now, time) : now;
+}
+
+SteadyWind Wind::steady(double time) const {
+    SteadyWind out = profile(time);
+    if (box_ && out.speed == 0) take_mean(*box_, out);
+    if (axes_) {
+        out.direction += axes_->direction;
+        out.upflow += axes_->upflow;
+    }
     return out;
+}
+
+WindAtTime Wind::at(double time) const {
+    return {*this, time};
+}
+
+WindAxes::WindAxes(double direction, double upflow, double pivot) : direction(direction), upflow(upflow), pivot(pivot) {
+    const double ca = std::cos(direction), sa = std::sin(direction), cb = std::cos(upflow), sb = -std::sin(upflow);
+    R << cb * ca, cb * sa, -sb, -sa, ca, 0, sb * ca, sb * sa, cb;
 }
 
 Wind Wind::turned(double direction, double upflow) const {
     Wind out = *this;
-    for (SteadyWind& row : out.rows_) {
-        row.direction += direction;
-        row.upflow += upflow;
-        row.check();
+    if (!box_ && !axes_ && upflow == 0) {
+        for (SteadyWind& row : out.rows_) {
+            row.direction += direction;
+            row.check();
+        }
+        return out;
     }
+    SteadyWind extremes = rows_.front();  // of which the angles are checked
+    extremes.direction = direction + (axes_ ? axes_->direction : 0);
+    extremes.upflow = upflow + (axes_ ? axes_->upflow : 0);
+    extremes.check();
+    out.axes_ = WindAxes(extremes.direction, extremes.upflow, extremes.reference_height);
     return out;
 }
 
@@ -183,11 +132,70 @@ Wind Wind::over(double ground) const {
     return out;
 }
 
+Wind Wind::with(const Gust& gust) const {
+    gust.check();
+    Wind out = *this;
+    out.gust_ = gust;
+    return out;
+}
+
+Wind Wind::with_outside(OutsideBox outside) const {
+    Wind out = *this;
+    if (box_) out.box_ = std::make_shared<const WindBox>(box_->with_outside(outside));
+    return out;
+}
+
 std::vector<double> Wind::breaks() const {
-    if (is_steady()) return {};
-    std::vector<double> out = times_;
+    std::vector<double> out;
+    if (rows_.size() > 1) out = times_;
+    if (gust_) {
+        const std::vector<double> more = gust_->breaks();
+        out.insert(out.end(), more.begin(), more.end());
+        std::ranges::sort(out);
+    }
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
+}
+
+WindAtTime::WindAtTime(const Wind& wind, double time, double more_speed)
+    : profile_([&] {
+          SteadyWind now = wind.profile(time);
+          now.speed += more_speed;
+          return now;
+      }()),
+      box_(wind.box_.get()),
+      axes_(wind.axes_ ? &*wind.axes_ : nullptr),
+      time_(time) {}
+
+// In axes of the wind.
+Vec3 WindAtTime::turned(const Vec3& place) const {
+    const Vec3 pivot(0, 0, profile_.wind().ground + axes_->pivot);
+    return axes_->R * (place - pivot) + pivot;
+}
+
+Vec3 WindAtTime::in_own_axes(const Vec3& place) const {
+    Vec3 out = profile_.at(place);
+    if (box_ != nullptr) out += box_->at(place - Vec3(0, 0, profile_.wind().ground), time_);
+    return out;
+}
+
+Vec3 WindAtTime::at(const Vec3& place) const {
+    if (axes_ == nullptr) return in_own_axes(place);
+    return axes_->R.transpose() * in_own_axes(turned(place));
+}
+
+void WindAtTime::at(std::span<const Vec3> places, std::span<Vec3> out) const {
+    if (box_ == nullptr && axes_ == nullptr) return profile_.at(places, out);
+    for (std::size_t i = 0; i < places.size(); ++i) out[i] = at(places[i]);
+}
+
+Mat3 WindAtTime::gradient_at(const Vec3& place) const {
+    if (box_ == nullptr && axes_ == nullptr) return profile_.wind().gradient_at(place);
+    const Vec3 own = axes_ == nullptr ? place : turned(place);
+    Mat3 out = profile_.wind().gradient_at(own);
+    if (box_ != nullptr) out += box_->with_gradient(own - Vec3(0, 0, profile_.wind().ground), time_).gradient;
+    if (axes_ == nullptr) return out;
+    return axes_->R.transpose() * out * axes_->R;
 }
 
 }  // namespace cardan

@@ -1,79 +1,38 @@
 /// @file
-/// Wind over the ground, the same everywhere but for its change with height and across, steady or over time.
+/// Wind over place and time: steady, tabulated, with a gust, turbulent, or several of these; one velocity and its
+/// exact gradient.
+///
+///     const Wind wind(box, {.speed = 12, .exponent = 0.2});
+///     const Vec3 there = wind.at(3.5).at({0, 10, 90});  // m/s
 #pragma once
 
-#include "mbs/base/types.hpp"
+#include "elements/wind/gust.hpp"
+#include "elements/wind/steady_wind.hpp"
+#include "elements/wind/wind_box.hpp"
+#include "mbs/base/lifetime_bound.hpp"
 
-#include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace cardan {
 
-/// Law by which the speed of the wind changes with height.
-enum class Shear : std::uint8_t {
-    none,
-    power,       ///< (z / reference height)^exponent
-    logarithmic  ///< ln(z / roughness) / ln(reference height / roughness)
+/// Axes that a whole wind is turned to, about a point above the base's origin: with its profile and its box.
+struct WindAxes {
+    double direction = 0;       ///< to the left, rad
+    double upflow = 0;          ///< above the horizontal, rad
+    double pivot = 0;           ///< height of the point, m
+    Mat3 R = Mat3::Identity();  ///< from ground axes to those of the wind
+
+    WindAxes() = default;
+    WindAxes(double direction, double upflow, double pivot);
 };
 
-/// Ground axes: x downwind of a wind without direction, z up. At a height z its speed is
-///
-///     speed [law of the shear + gradient (z - reference height) + lateral y'] + gust
-///
-/// with y' the distance of the place from the base's origin, to the left as seen along the wind.
-struct SteadyWind {
-    double speed = 0;              ///< at the reference height, m/s
-    double reference_height = 90;  ///< m
-    Shear shear = Shear::none;
-    double exponent = 0;     ///< of the power law
-    double roughness = 0;    ///< m, of the logarithmic law
-    double gradient = 0;     ///< 1/m, of a linear change with height
-    double direction = 0;    ///< rad: where it blows to, from x towards y, at the reference height
-    double veer = 0;         ///< rad/m: change of the direction with height
-    double upflow = 0;       ///< rad above the horizontal
-    double density = 1.225;  ///< of the air, kg/m^3
-    double lateral = 0;      ///< 1/m, of a linear change across the wind
-    double gust = 0;         ///< m/s, the same at all places
-    double vertical = 0;     ///< m/s, upward, the same at all places
-    double ground = 0;       ///< m, where heights are counted from
+class WindAtTime;
 
-    /// m/s. Below the ground, and where a law has no value, that at 1e-3 of the reference height.
-    Vec3 at(const Vec3& place) const;
-    /// dW_i/dx_j, 1/s; below the lowest height nothing changes with it.
-    Mat3 gradient_at(const Vec3& place) const;
-    bool is_uniform() const;  ///< the same at all places
-    /// @throws InputError for what is not finite, a density or a height that is not positive, a roughness that is not
-    /// between 0 and the reference height
-    void check() const;
-
-private:
-    friend class WindAtPlaces;
-    double height(const Vec3& place) const;
-    double law(double z) const;
-    // @param law  of the height z
-    double size(const Vec3& place, double z, double law, const Vec3& left) const;
-    Vec3 along(double to) const;  // unit
-};
-
-/// SteadyWind::at() for many places: what does not depend on the place is computed once.
-class WindAtPlaces {
-public:
-    explicit WindAtPlaces(const SteadyWind& wind);
-    Vec3 at(const Vec3& place) const;
-    /// Velocities at many places.
-    /// @param out  as many
-    void at(std::span<const Vec3> places, std::span<Vec3> out) const;
-
-private:
-    Vec3 at(const Vec3& place, double z, double law) const;
-
-    SteadyWind wind_;
-    Vec3 along_, left_;  // of its direction
-};
-
-/// A wind that changes with time: between the rows of a table every value changes linearly, before and after them
-/// nothing does.
+/// A wind: a profile that changes linearly between the rows of a table over time and is held before and after them;
+/// with a gust, that changes it, and with a box, whose velocities are added.
 class Wind {
 public:
     Wind(const SteadyWind& steady);  // NOLINT(google-explicit-constructor): a steady wind is one
@@ -81,21 +40,73 @@ public:
     /// @throws InputError for lists of different length or empty, times that descend, rows with different laws of the
     /// shear, and as SteadyWind::check()
     Wind(std::vector<double> times, std::vector<SteadyWind> rows);
+    /// A turbulent wind.
+    /// @param profile  that is added; without a speed where the box holds the mean wind. Its reference height is that
+    ///                 about which the wind is turned
+    Wind(std::shared_ptr<const WindBox> box, const SteadyWind& profile);
 
-    SteadyWind at(double time) const;
-    bool is_steady() const { return rows_.size() == 1; }
-    /// A copy with angles added to its direction and its upflow, rad.  @throws InputError for angles out of range
+    /// The wind of a time, for many places.
+    WindAtTime at(double time) const CARDAN_LIFETIME_BOUND;
+    /// What is left of it without its box and before it is turned.
+    SteadyWind profile(double time) const;
+    /// A steady wind near to it: the profile at a time, turned, with the speed and the shear of the box's mean over its
+    /// planes at the middle column. That from which runs in time start.
+    SteadyWind steady(double time = 0) const;
+
+    bool is_steady() const { return rows_.size() == 1 && !gust_ && !box_; }
+    /// A copy with angles added to its direction and its upflow, rad. An upflow, and any turn of a box, turns also the
+    /// places, about the reference height above the base's origin [InflowWind].  @throws InputError for angles out of
+    /// range
     Wind turned(double direction, double upflow) const;
     /// A copy with heights counted from there, m.
     Wind over(double ground) const;
-    /// Times at which the wind is not smooth: those of the table. Empty: it is steady.
+    /// A copy with a gust.  @throws InputError as Gust::check()
+    Wind with(const Gust& gust) const;
+    /// A copy with another answer to what is outside its box; without one it is as it was.
+    Wind with_outside(OutsideBox outside) const;
+    /// Times at which the wind is not smooth: those of the table and of the gust. Those of a box's planes, which differ
+    /// from place to place, are not among them. Empty: it is steady.
     std::vector<double> breaks() const;
     const std::vector<double>& times() const { return times_; }  ///< of the rows, s; of a steady wind 0
     const std::vector<SteadyWind>& rows() const { return rows_; }
+    const WindBox* box() const { return box_.get(); }  ///< null: there is none
+    const std::optional<Gust>& gust() const { return gust_; }
+    const std::optional<WindAxes>& axes() const { return axes_; }  ///< none: it is not turned as a whole
 
 private:
+    friend class WindAtTime;
+
     std::vector<double> times_;
     std::vector<SteadyWind> rows_;
+    std::optional<Gust> gust_ = {};
+    std::optional<WindAxes> axes_ = {};
+    std::shared_ptr<const WindBox> box_ = {};
+};
+
+/// Velocities of a wind at one time. Valid as long as the wind that it was taken from.
+class WindAtTime {
+public:
+    /// @param more_speed  added to the profile's at the reference height, m/s
+    WindAtTime(const Wind& wind CARDAN_LIFETIME_BOUND, double time, double more_speed = 0);
+    explicit WindAtTime(const SteadyWind& wind) : profile_(wind) {}
+
+    /// m/s.  @throws InputError as WindBox::at()
+    Vec3 at(const Vec3& place) const;
+    /// Velocities at many places.
+    /// @param out  as many
+    void at(std::span<const Vec3> places, std::span<Vec3> out) const;
+    /// dW_i/dx_j, 1/s.
+    Mat3 gradient_at(const Vec3& place) const;
+    double density() const { return profile_.wind().density; }  ///< of the air, kg/m^3
+
+private:
+    Vec3 turned(const Vec3& place) const;       // to axes of the wind
+    Vec3 in_own_axes(const Vec3& place) const;  // velocity, all in axes of the wind
+
+    ProfileAtPlaces profile_;
+    const WindBox* box_ = nullptr;
+    const WindAxes* axes_ = nullptr;
+    double time_ = 0;
 };
 
 }  // namespace cardan

@@ -76,15 +76,14 @@ public:
     DragEvaluation(const Wind& wind, const std::vector<DragSite>& sites, const std::vector<int>& path,
                    const StateView& at, DragScratch& scratch)
         : sites_(sites), path_(path), scratch_(scratch), motion_(at, path, scratch.rates), wind_(wind.at(at.time)) {
-        const WindAtPlaces air(wind_);
         scratch_.sites.resize(sites.size());
         for (std::size_t i = 0; i < sites.size(); ++i) {
             const DragSite& own = sites[i];
             DragState& s = scratch_.sites[i];
             s.place = motion_.place(own.body, own.place);
             s.velocity = motion_.velocity(own.body, s.place);
-            s.relative = air.at(s.place) - s.velocity;
-            find_force(own, motion_.rotation(own.body) * own.axes, wind_.density, s);
+            s.relative = wind_.at(s.place) - s.velocity;
+            find_force(own, motion_.rotation(own.body) * own.axes, wind_.density(), s);
         }
     }
 
@@ -140,7 +139,7 @@ private:
     const std::vector<int>& path_;
     DragScratch& scratch_;
     BodyMotion motion_;
-    SteadyWind wind_;
+    WindAtTime wind_;
 };
 
 }  // namespace

@@ -51,8 +51,7 @@ AirEvaluation::AirEvaluation(const AirParts& parts, const ElementView& at, AirSc
       states_(at.s),
       scratch_(scratch),
       motion_(at.system, parts.bodies, scratch.rates),
-      wind_(parts.wind.at(at.time)) {
-    if (at.u.size() > 0) wind_.speed += at.u(0);
+      wind_(parts.wind, at.time, at.u.size() > 0 ? at.u(0) : 0) {
     shaft_ = motion_.rotation(parts.hub_body) * parts.hub_axis;
     hub_ = motion_.place(parts.hub_body, parts.hub_place);
     place_sections();
@@ -79,7 +78,7 @@ void AirEvaluation::place_sections() {
                     shaft_, hub_, scratch_.sections.data() + k * count, scratch_.along_x.data() + k * count,
                     scratch_.along_y.data() + k * count);
     for (std::size_t i = 0; i < all; ++i) scratch_.places[i] = scratch_.sections[i].place;
-    WindAtPlaces(wind_).at(scratch_.places, scratch_.winds);
+    wind_.at(scratch_.places, scratch_.winds);
     arc_tangents(scratch_.along_x, scratch_.along_y, scratch_.angles);
     for (std::size_t i = 0; i < all; ++i) {
         SectionState& s = scratch_.sections[i];
@@ -191,8 +190,8 @@ void AirEvaluation::find_lagging_air() {
     scratch_.lagging.resize(scratch_.sections.size());
     for (std::size_t i = 0; i < scratch_.sections.size(); ++i) {
         SectionState& s = scratch_.sections[i];
-        scratch_.lagging[i] = lagging_air(scratch_.inductions[i], s.annulus, motion_of(i), states_of(i), wind_.density,
-                                          parts_.lags->sections[i]);
+        scratch_.lagging[i] = lagging_air(scratch_.inductions[i], s.annulus, motion_of(i), states_of(i),
+                                          wind_.density(), parts_.lags->sections[i]);
         s.air = scratch_.lagging[i].air;
     }
 }
@@ -206,7 +205,7 @@ void AirEvaluation::find_steady_air() {
         SectionState& s = scratch_.sections[i];
         const auto& [annulus, V_x, V_y] = scratch_.inflows[i];
         const Induction& found = scratch_.inductions[i];
-        s.air = {V_x, V_y, found, section_force(*annulus, V_x, V_y, found, wind_.density)};
+        s.air = {V_x, V_y, found, section_force(*annulus, V_x, V_y, found, wind_.density())};
     }
 }
 

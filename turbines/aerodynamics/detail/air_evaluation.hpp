@@ -105,7 +105,7 @@ public:
     double speed() const;  ///< of the rotor about the shaft, rad/s
     /// Power of a wrench about a place that is fixed to a body, W.
     double power(const Wrench& wrench, int body, const Vec3& place) const;
-    double density() const { return wind_.density; }
+    double density() const { return wind_.density(); }
     void rates(VectorOut out) const;  ///< of the states
     void steady_states(VectorOut out) const;
     /// Adds those by motion and states.
@@ -131,7 +131,7 @@ private:
     Eigen::Ref<const Vector> states_;
     AirScratch& scratch_;
     BodyMotion motion_;
-    SteadyWind wind_;  // of this time
+    WindAtTime wind_;
     Vec3 shaft_, hub_;
     MeanWind mean_ = {};
 };

@@ -130,7 +130,7 @@ InfluenceParts influence_parts(const Turbine& turbine, const AeroTower& tower) {
     return out;
 }
 
-InfluenceState influence_at(const InfluenceParts& parts, const BodyMotion& motion, const SteadyWind& wind,
+InfluenceState influence_at(const InfluenceParts& parts, const BodyMotion& motion, const WindAtTime& wind,
                             const Vec3& place) {
     const Nearest next = nearest(parts, motion, place);
     InfluenceState out{};
@@ -159,7 +159,7 @@ InfluenceState influence_at(const InfluenceParts& parts, const BodyMotion& motio
 //
 //     dX = f/r (I - t t') dP - X (r'/r) dh + X (d ln f/dz) dz,    dh = t . dP where the foot slides, else dz = t . dP,
 //     dC = t dh,    d(wind at C) = G t dh,    d(velocity at C) = omega x t dh.
-InfluenceSlopes::InfluenceSlopes(const InfluenceParts& parts, const BodyMotion& motion, const SteadyWind& wind,
+InfluenceSlopes::InfluenceSlopes(const InfluenceParts& parts, const BodyMotion& motion, const WindAtTime& wind,
                                  const InfluenceState& state) {
     if (!state.acts) return;
     const TowerInfluenceSlopes slopes = disturbance_slopes(parts, state);

@@ -52,14 +52,14 @@ struct InfluenceState {
 
 /// Beyond an end of the tower X is stretched by 1/cos(pi z/2), z the height over the radius, up to z = 1, from where on
 /// the wind is as it was. So it is in the tower and nearer to it than 1 % of its diameter. [AeroDyn]
-InfluenceState influence_at(const InfluenceParts& parts, const BodyMotion& motion, const SteadyWind& wind,
+InfluenceState influence_at(const InfluenceParts& parts, const BodyMotion& motion, const WindAtTime& wind,
                             const Vec3& place);
 
 /// Derivatives of the tower's influence.
 class InfluenceSlopes {
 public:
     InfluenceSlopes() = default;
-    InfluenceSlopes(const InfluenceParts& parts, const BodyMotion& motion, const SteadyWind& wind,
+    InfluenceSlopes(const InfluenceParts& parts, const BodyMotion& motion, const WindAtTime& wind,
                     const InfluenceState& state);
 
     /// Change of the disturbance by a coordinate that moves the place by `v`.
