@@ -151,24 +151,61 @@ TEST_CASE("air on a machine: a wind over time is at every instant a steady one",
     MachineState state = shaken(machine, 3);
     for (const double time : {0.0, 1.5, 2.5, 4.0}) {
         state.time = time;
-        const MachineAir steady = air.in(air.wind().at(time));
+        const MachineAir steady = air.in(air.wind().profile(time));
         CHECK(steady.wind().is_steady());
         CHECK(generalised_forces(machine, air.element(), state)
                   .isApprox(generalised_forces(machine, steady.element(), state), 1e-14));
     }
 }
 
+namespace {
+
+// Around the whole machine, of cells as large as half a blade.
+Wind turbulent() {
+    constexpr BoxGrid grid{
+        .steps = 8, .rows = 7, .columns = 8, .time_step = 4, .row_spacing = 31, .column_spacing = 33, .lowest = -2};
+    const auto numbers = std::make_shared<std::vector<float>>();
+    Random random(17);
+    for (int i = 0; i < 3 * 8 * 7 * 8; ++i) numbers->push_back(static_cast<float>(uniform(random, -3, 3)));
+    WindBoxData box{.grid = grid, .components = {}, .speed = 11, .periodic = true, .memory = numbers};
+    for (std::size_t c = 0; c < 3; ++c)
+        box.components.at(c) = {.data = numbers->data() + c, .step = 3 * 56, .row = 3 * 8, .column = 3};
+    return Wind(std::make_shared<const WindBox>(box), slanted).turned(0.1, 0.02);
+}
+
+}  // namespace
+
+TEST_CASE("air on a machine in turbulence: derivatives are those of the forces, the tower's influence in them",
+          "[property]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
+    const TowerNacelleAero tower{
+        .tower = {
+            .height = {0, 87.6}, .diameter = {6, 3.87}, .drag = {0.6, 0.6}, .influence = TowerInfluence::potential}};
+    const MachineAir air(machine, nrel5mw_aero_blade(), turbulent(), {}, tower);
+    for (const double time : {1.0, 9.5}) {
+        MachineState state = shaken(machine, 5);
+        state.time = time;
+        checked_derivatives(machine, air.element(), state, 4e-9, 1e-9);
+        checked_derivatives(machine, air.support().element(), state, 4e-9, 1e-9);
+        state.time += 32;  // a period
+        const MachineAir steady = air.in(slanted);
+        CHECK(!generalised_forces(machine, air.element(), state)
+                   .isApprox(generalised_forces(machine, steady.element(), state), 1e-3));
+    }
+}
+
 TEST_CASE("air on a machine: evaluations allocate nothing", "[memory]") {
     const Turbine machine = nrel5mw(Nrel5mwVariant::report, 4, 2);
     const MachineAir air(machine, nrel5mw_aero_blade(), slanted);
-    const ForceElement field = air.element();
     const FieldState at(machine, shaken(machine, 2));
     const StateView input = at.input();
-    ElementAnswers own(field, input.q.size());
-    own.evaluate(input);
-    own.differentiate(input);
-    CHECK(allocations([&] { own.evaluate(input); }) == 0);
-    CHECK(allocations([&] { own.differentiate(input); }) == 0);
+    for (const ForceElement& field : {air.element(), air.in(turbulent()).element()}) {
+        ElementAnswers own(field, input.q.size());
+        own.evaluate(input);
+        own.differentiate(input);
+        CHECK(allocations([&] { own.evaluate(input); }) == 0);
+        CHECK(allocations([&] { own.differentiate(input); }) == 0);
+    }
 }
 
 TEST_CASE("air on a machine: the deflection of a blade converges with the square of the elements' length",

@@ -29,7 +29,7 @@ public:
 
 private:
     InfluenceParts parts_;
-    SteadyWind wind_;
+    WindAtTime wind_;
     FieldState at_;
     std::vector<BodyRate> rates_;
 };
