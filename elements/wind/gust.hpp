@@ -2,7 +2,7 @@
 /// Gusts are changes of a wind over time that formulas describe: the extreme winds of IEC 61400-1.
 #pragma once
 
-#include "elements/wind/wind.hpp"
+#include "elements/wind/steady_wind.hpp"
 
 #include <cstdint>
 #include <vector>
