@@ -40,18 +40,18 @@ Vec3 SteadyWind::along(double to) const {
 }
 
 Vec3 SteadyWind::at(const Vec3& place) const {
-    return ProfileAtPlaces(*this).at(place);
+    return SteadyWindAtPlaces(*this).at(place);
 }
 
-ProfileAtPlaces::ProfileAtPlaces(const SteadyWind& wind)
+SteadyWindAtPlaces::SteadyWindAtPlaces(const SteadyWind& wind)
     : wind_(wind), along_(wind.along(wind.direction)), left_(left_of(wind.direction)) {}
 
-Vec3 ProfileAtPlaces::at(const Vec3& place) const {
+Vec3 SteadyWindAtPlaces::at(const Vec3& place) const {
     const double z = wind_.height(place);
     return at(place, z, wind_.law(z));
 }
 
-void ProfileAtPlaces::at(std::span<const Vec3> places, std::span<Vec3> out) const {
+void SteadyWindAtPlaces::at(std::span<const Vec3> places, std::span<Vec3> out) const {
     constexpr std::size_t max = 64;
     std::array<double, max> ratios = {}, laws = {};
     for (std::size_t first = 0; first < places.size(); first += max) {
@@ -67,7 +67,7 @@ void ProfileAtPlaces::at(std::span<const Vec3> places, std::span<Vec3> out) cons
     }
 }
 
-Vec3 ProfileAtPlaces::at(const Vec3& place, double z, double law) const {
+Vec3 SteadyWindAtPlaces::at(const Vec3& place, double z, double law) const {
     Vec3 out = wind_.size(place, z, law, left_) *
                (wind_.veer == 0 ? along_ : wind_.along(wind_.direction + wind_.veer * (z - wind_.reference_height)));
     out.z() += wind_.vertical;

@@ -47,7 +47,7 @@ struct SteadyWind {
     void check() const;
 
 private:
-    friend class ProfileAtPlaces;
+    friend class SteadyWindAtPlaces;
     double height(const Vec3& place) const;
     double law(double z) const;
     // @param law  of the height z
@@ -56,9 +56,9 @@ private:
 };
 
 /// SteadyWind::at() for many places: what does not depend on the place is computed once.
-class ProfileAtPlaces {
+class SteadyWindAtPlaces {
 public:
-    explicit ProfileAtPlaces(const SteadyWind& wind);
+    explicit SteadyWindAtPlaces(const SteadyWind& wind);
     Vec3 at(const Vec3& place) const;
     /// Velocities at many places.
     /// @param out  as many

@@ -34,26 +34,26 @@ SteadyWind row_at(const std::vector<double>& times, const std::vector<SteadyWind
 }
 
 // Speed and exponent of a power law through the mean wind of a box, over its planes at the middle column.
-void take_mean(const WindBox& box, SteadyWind& profile) {
+void take_mean(const WindBox& box, SteadyWind& steady) {
     const BoxGrid& grid = box.grid();
     std::vector<double> heights, speeds;
     for (int row = 0; row < grid.rows; ++row) {
         heights.push_back(grid.lowest + row * grid.row_spacing);
         speeds.push_back(box.statistics(row, grid.columns / 2).mean.x());
     }
-    const double at = std::clamp((profile.reference_height - grid.lowest) / grid.row_spacing, 0.0, grid.rows - 1.0);
+    const double at = std::clamp((steady.reference_height - grid.lowest) / grid.row_spacing, 0.0, grid.rows - 1.0);
     const auto below = static_cast<std::size_t>(std::min(static_cast<int>(at), grid.rows - 2));
-    profile.speed = std::max(0.0, std::lerp(speeds[below], speeds[below + 1], at - static_cast<double>(below)));
-    profile.shear = Shear::none;
+    steady.speed = std::max(0.0, std::lerp(speeds[below], speeds[below + 1], at - static_cast<double>(below)));
+    steady.shear = Shear::none;
     double product = 0, square = 0;
     for (std::size_t i = 0; i < heights.size(); ++i) {
-        if (!(heights[i] > 0 && speeds[i] > 0 && profile.speed > 0)) return;
-        const double x = std::log(heights[i] / profile.reference_height);
-        product += x * std::log(speeds[i] / profile.speed);
+        if (!(heights[i] > 0 && speeds[i] > 0 && steady.speed > 0)) return;
+        const double x = std::log(heights[i] / steady.reference_height);
+        product += x * std::log(speeds[i] / steady.speed);
         square += x * x;
     }
-    profile.shear = Shear::power;
-    profile.exponent = std::clamp(product / square, -1.0, 1.0);
+    steady.shear = Shear::power;
+    steady.exponent = std::clamp(product / square, -1.0, 1.0);
 }
 
 }  // namespace
@@ -79,19 +79,19 @@ Wind::Wind(std::vector<double> times, std::vector<SteadyWind> rows) : times_(std
     }
 }
 
-Wind::Wind(std::shared_ptr<const WindBox> box, const SteadyWind& profile)
-    : times_{0}, rows_{profile}, box_(std::move(box)) {
-    profile.check();
+Wind::Wind(std::shared_ptr<const WindBox> box, const SteadyWind& steady)
+    : times_{0}, rows_{steady}, box_(std::move(box)) {
+    steady.check();
     if (!box_) throw InputError("wind", "box", "none", "one; a steady wind needs none");
 }
 
-SteadyWind Wind::profile(double time) const {
+SteadyWind Wind::without_box(double time) const {
     const SteadyWind now = row_at(times_, rows_, time);
     return gust_ ? gust_->applied(now, time) : now;
 }
 
-SteadyWind Wind::steady(double time) const {
-    SteadyWind out = profile(time);
+SteadyWind Wind::mean(double time) const {
+    SteadyWind out = without_box(time);
     if (box_ && out.speed == 0) take_mean(*box_, out);
     if (axes_) {
         out.direction += axes_->direction;
@@ -158,8 +158,8 @@ std::vector<double> Wind::breaks() const {
 }
 
 WindAtTime::WindAtTime(const Wind& wind, double time, double more_speed)
-    : profile_([&] {
-          SteadyWind now = wind.profile(time);
+    : steady_([&] {
+          SteadyWind now = wind.without_box(time);
           now.speed += more_speed;
           return now;
       }()),
@@ -169,13 +169,13 @@ WindAtTime::WindAtTime(const Wind& wind, double time, double more_speed)
 
 // In axes of the wind.
 Vec3 WindAtTime::turned(const Vec3& place) const {
-    const Vec3 pivot(0, 0, profile_.wind().ground + axes_->pivot);
+    const Vec3 pivot(0, 0, steady_.wind().ground + axes_->pivot);
     return axes_->R * (place - pivot) + pivot;
 }
 
 Vec3 WindAtTime::in_own_axes(const Vec3& place) const {
-    Vec3 out = profile_.at(place);
-    if (box_ != nullptr) out += box_->at(place - Vec3(0, 0, profile_.wind().ground), time_);
+    Vec3 out = steady_.at(place);
+    if (box_ != nullptr) out += box_->at(place - Vec3(0, 0, steady_.wind().ground), time_);
     return out;
 }
 
@@ -185,15 +185,15 @@ Vec3 WindAtTime::at(const Vec3& place) const {
 }
 
 void WindAtTime::at(std::span<const Vec3> places, std::span<Vec3> out) const {
-    if (box_ == nullptr && axes_ == nullptr) return profile_.at(places, out);
+    if (box_ == nullptr && axes_ == nullptr) return steady_.at(places, out);
     for (std::size_t i = 0; i < places.size(); ++i) out[i] = at(places[i]);
 }
 
 Mat3 WindAtTime::gradient_at(const Vec3& place) const {
-    if (box_ == nullptr && axes_ == nullptr) return profile_.wind().gradient_at(place);
+    if (box_ == nullptr && axes_ == nullptr) return steady_.wind().gradient_at(place);
     const Vec3 own = axes_ == nullptr ? place : turned(place);
-    Mat3 out = profile_.wind().gradient_at(own);
-    if (box_ != nullptr) out += box_->with_gradient(own - Vec3(0, 0, profile_.wind().ground), time_).gradient;
+    Mat3 out = steady_.wind().gradient_at(own);
+    if (box_ != nullptr) out += box_->with_gradient(own - Vec3(0, 0, steady_.wind().ground), time_).gradient;
     if (axes_ == nullptr) return out;
     return axes_->R.transpose() * out * axes_->R;
 }

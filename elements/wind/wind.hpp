@@ -18,7 +18,7 @@
 
 namespace cardan {
 
-/// Axes that a whole wind is turned to, about a point above the base's origin: with its profile and its box.
+/// Axes that a whole wind is turned to, about a point above the base's origin: with all that it holds.
 struct WindAxes {
     double direction = 0;       ///< to the left, rad
     double upflow = 0;          ///< above the horizontal, rad
@@ -31,7 +31,7 @@ struct WindAxes {
 
 class WindAtTime;
 
-/// A wind: a profile that changes linearly between the rows of a table over time and is held before and after them;
+/// A wind: steady, or one that changes linearly between the rows of a table over time and is held before and after them;
 /// with a gust, that changes it, and with a box, whose velocities are added.
 class Wind {
 public:
@@ -41,17 +41,17 @@ public:
     /// shear, and as SteadyWind::check()
     Wind(std::vector<double> times, std::vector<SteadyWind> rows);
     /// A turbulent wind.
-    /// @param profile  that is added; without a speed where the box holds the mean wind. Its reference height is that
+    /// @param steady  that is added; without a speed where the box holds the mean wind. Its reference height is that
     ///                 about which the wind is turned
-    Wind(std::shared_ptr<const WindBox> box, const SteadyWind& profile);
+    Wind(std::shared_ptr<const WindBox> box, const SteadyWind& steady);
 
     /// The wind of a time, for many places.
     WindAtTime at(double time) const CARDAN_LIFETIME_BOUND;
-    /// What is left of it without its box and before it is turned.
-    SteadyWind profile(double time) const;
-    /// A steady wind near to it: the profile at a time, turned, with the speed and the shear of the box's mean over its
+    /// The wind of a time without the box, before it is turned.
+    SteadyWind without_box(double time) const;
+    /// A steady wind near to it: that of the table and the gust at a time, turned, with the speed and the shear of the box's mean over its
     /// planes at the middle column. That from which runs in time start.
-    SteadyWind steady(double time = 0) const;
+    SteadyWind mean(double time = 0) const;
 
     bool is_steady() const { return rows_.size() == 1 && !gust_ && !box_; }
     /// A copy with angles added to its direction and its upflow, rad. An upflow, and any turn of a box, turns also the
@@ -86,9 +86,9 @@ private:
 /// Velocities of a wind at one time. Valid as long as the wind that it was taken from.
 class WindAtTime {
 public:
-    /// @param more_speed  added to the profile's at the reference height, m/s
+    /// @param more_speed  added to the speed at the reference height, m/s
     WindAtTime(const Wind& wind CARDAN_LIFETIME_BOUND, double time, double more_speed = 0);
-    explicit WindAtTime(const SteadyWind& wind) : profile_(wind) {}
+    explicit WindAtTime(const SteadyWind& wind) : steady_(wind) {}
 
     /// m/s.  @throws InputError as WindBox::at()
     Vec3 at(const Vec3& place) const;
@@ -97,13 +97,13 @@ public:
     void at(std::span<const Vec3> places, std::span<Vec3> out) const;
     /// dW_i/dx_j, 1/s.
     Mat3 gradient_at(const Vec3& place) const;
-    double density() const { return profile_.wind().density; }  ///< of the air, kg/m^3
+    double density() const { return steady_.wind().density; }  ///< of the air, kg/m^3
 
 private:
     Vec3 turned(const Vec3& place) const;       // to axes of the wind
     Vec3 in_own_axes(const Vec3& place) const;  // velocity, all in axes of the wind
 
-    ProfileAtPlaces profile_;
+    SteadyWindAtPlaces steady_;
     const WindBox* box_ = nullptr;
     const WindAxes* axes_ = nullptr;
     double time_ = 0;

@@ -56,14 +56,14 @@ struct BoxTower {
     double spacing = 0;  ///< between them, m
 };
 
-/// What the wind is below the grid.
+/// Answers to what the wind is below the grid.
 enum class BelowBox : std::uint8_t {
     refuse,  ///< there is none: an error
     tower,   ///< linear from the first row down the points of BoxTower, from the lowest of which to zero at the ground
     to_ground  ///< linear from the first row to zero at the ground
 };
 
-/// What the wind is beside and above the grid, before and after its planes.
+/// Answers to what the wind is beside and above the grid, before and after its planes.
 enum class OutsideBox : std::uint8_t {
     refuse,  ///< there is none: an error
     hold,    ///< as on the nearest edge, and as in the first and the last plane
@@ -71,7 +71,7 @@ enum class OutsideBox : std::uint8_t {
 };
 const char* name_of(OutsideBox outside);
 
-/// Where a box came from, for results.
+/// The origin of a box, for results.
 struct BoxOrigin {
     std::vector<std::string> files;  ///< whose bytes the numbers are, as they were given; empty: made in memory
     std::string format;              ///< "TurbSim .bts", ...

@@ -14,7 +14,7 @@ namespace {
 
 std::string in_words(const Wind& wind) {
     if (wind.is_steady()) return text("wind ", wind.rows().front().speed, " m/s");
-    if (wind.box() != nullptr) return text("turbulent wind, ", wind.steady().speed, " m/s");
+    if (wind.box() != nullptr) return text("turbulent wind, ", wind.mean().speed, " m/s");
     const auto [min, max] = std::ranges::minmax(wind.rows(), {}, &SteadyWind::speed);
     return text("wind of ", min.speed, " to ", max.speed, " m/s over time");
 }

@@ -226,8 +226,8 @@ TEST_CASE("wind over time: linear between its rows, steps between two of the sam
     const Wind wind({1, 2, 2, 4}, {row(8, 0), row(10, 0.1), row(14, 0.1), row(12, 0.3)});
     for (const auto& [time, speed, direction] :
          {std::array{0.0, 8.0, 0.0}, {1.5, 9.0, 0.05}, {2.0, 14.0, 0.1}, {3.0, 13.0, 0.2}, {9.0, 12.0, 0.3}}) {
-        CHECK(wind.profile(time).speed == Approx(speed));
-        CHECK(wind.profile(time).direction == Approx(direction));
+        CHECK(wind.without_box(time).speed == Approx(speed));
+        CHECK(wind.without_box(time).direction == Approx(direction));
     }
     CHECK(wind.breaks() == std::vector<double>{1, 2, 4});
     const SteadyWind low{.speed = 10, .shear = Shear::power, .exponent = 0.2, .ground = -15};

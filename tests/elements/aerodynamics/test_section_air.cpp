@@ -138,7 +138,7 @@ TEST_CASE("blade section: a skewed wake along a blade is that of its sections on
 TEST_CASE("wind: at many places it is that at each", "[discrete]") {
     Random random(13);
     for (const Shear shear : {Shear::none, Shear::power, Shear::logarithmic}) {
-        const ProfileAtPlaces wind(SteadyWind{.speed = 9,
+        const SteadyWindAtPlaces wind(SteadyWind{.speed = 9,
                                            .shear = shear,
                                            .exponent = 0.2,
                                            .roughness = 0.03,

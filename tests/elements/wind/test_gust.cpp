@@ -79,7 +79,7 @@ TEST_CASE("gust: EOG has its peak, its dips and its mean at closed forms", "[ana
 TEST_CASE("gust: direction changes and shears are raised cosines", "[analytic]") {
     for (const double s : {0.1, 0.25, 0.5, 0.8, 1.0}) {
         const double once = std::pow(std::sin(pi * s / 2), 2), twice = std::pow(std::sin(pi * s), 2);
-        const auto at = [&](int i) { return change(all_gusts[i], start + s * all_gusts[i].duration); };
+        const auto at = [&](std::size_t i) { return change(all_gusts[i], start + s * all_gusts[i].duration); };
         CAPTURE(s);
         CHECK((at(1) - Eigen::Vector4d(0, 0.5 * once, 0, 0)).norm() < 1e-14);
         CHECK((at(2) - Eigen::Vector4d(0, -1.1 * once, 0, 15 * once)).norm() < 1e-13);

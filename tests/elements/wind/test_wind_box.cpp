@@ -209,12 +209,12 @@ TEST_CASE("wind box: grids and numbers that cannot be are refused", "[bad input]
     refused([](WindBoxData& d) { d.below = BelowBox::tower; }, "points of the tower = none");
 }
 
-TEST_CASE("wind with a box: profile and box are added; turned axes turn both and the places", "[analytic]") {
+TEST_CASE("wind with a box: steady wind and box are added; turned axes turn both and the places", "[analytic]") {
     WindBoxData data = random_box(9);
     data.periodic = true;
     const auto box = std::make_shared<const WindBox>(data);
-    const SteadyWind profile{.speed = 9, .reference_height = 35, .shear = Shear::power, .exponent = 0.2};
-    const Wind wind(box, profile), turned = wind.turned(0.3, 0.1);
+    const SteadyWind steady{.speed = 9, .reference_height = 35, .shear = Shear::power, .exponent = 0.2};
+    const Wind wind(box, steady), turned = wind.turned(0.3, 0.1);
     CHECK(!wind.is_steady());
     const WindAxes axes(0.3, 0.1, 35);
     CHECK((axes.R * axes.R.transpose() - Mat3::Identity()).norm() < 1e-15);
@@ -228,7 +228,7 @@ TEST_CASE("wind with a box: profile and box are added; turned axes turn both and
     const double time = 1.3;
     wind.at(time).at(places, many);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        CHECK((many[i] - profile.at(places[i]) - box->at(places[i], time)).norm() < 1e-13);
+        CHECK((many[i] - steady.at(places[i]) - box->at(places[i], time)).norm() < 1e-13);
         CHECK((wind.at(time).at(places[i]) - many[i]).norm() < 1e-13);
         // A place that is turned with the wind feels the same, turned.
         const Vec3 pivot(0, 0, 35), there = axes.R.transpose() * (places[i] - pivot) + pivot;
@@ -240,11 +240,11 @@ TEST_CASE("wind with a box: profile and box are added; turned axes turn both and
         CHECK((wind.over(-15).at(time).at(places[i] + down) - many[i]).norm() < 1e-12);
         CHECK((turned.over(-15).at(time).at(there + down) - turned.at(time).at(there)).norm() < 1e-12);
     }
-    CHECK(turned.steady().direction == 0.3);
-    CHECK(turned.steady().speed == 9);
+    CHECK(turned.mean().direction == 0.3);
+    CHECK(turned.mean().speed == 9);
     CHECK((turned.turned(-0.3, -0.1).at(time).at(places[0]) - many[0]).norm() < 1e-13);
     check_refused([&] { static_cast<void>(wind.turned(0, 2)); }, {"upflow [rad] = 2"});
-    check_refused([&] { Wind none(std::shared_ptr<const WindBox>(), profile); }, {"box = none"});
+    check_refused([&] { Wind none(std::shared_ptr<const WindBox>(), steady); }, {"box = none"});
 }
 
 TEST_CASE("wind with a box: a machine's mirror image sees the mirror image of the wind", "[analytic]") {
@@ -254,11 +254,11 @@ TEST_CASE("wind with a box: a machine's mirror image sees the mirror image of th
         of.column = -of.column;
     }
     mirrored.components[1].scale = -1;
-    const SteadyWind profile{.speed = 9, .direction = 0.1, .lateral = 0.002};
-    SteadyWind other = profile;
+    const SteadyWind steady{.speed = 9, .direction = 0.1, .lateral = 0.002};
+    SteadyWind other = steady;
     other.direction = -0.1;
     other.lateral = -0.002;
-    const Wind wind = Wind(std::make_shared<const WindBox>(data), profile).turned(0.2, 0.05),
+    const Wind wind = Wind(std::make_shared<const WindBox>(data), steady).turned(0.2, 0.05),
                image = Wind(std::make_shared<const WindBox>(mirrored), other).turned(-0.2, 0.05);
     const Vec3 flip(1, -1, 1), place(-3, 7, 33);
     CHECK((image.at(1).at(flip.cwiseProduct(place)) - flip.cwiseProduct(wind.at(1).at(place))).norm() < 1e-13);
@@ -270,7 +270,7 @@ TEST_CASE("wind with a box: the steady wind near to it has its mean speed and sh
         return c == 0 ? static_cast<float>(10 * std::pow((20 + 10.0 * k) / 35, 0.14) + waves) : 0.F;
     }));
     const Wind wind(std::make_shared<const WindBox>(box), {.speed = 0, .reference_height = 35});
-    const SteadyWind steady = wind.steady();
+    const SteadyWind steady = wind.mean();
     CHECK(steady.speed == Approx(10).epsilon(2e-3));
     CHECK(steady.exponent == Approx(0.14).epsilon(1e-2));
     CHECK(steady.at({0, 0, 50}).x() == Approx(10 * std::pow(50 / 35.0, 0.14)).epsilon(3e-3));

@@ -97,12 +97,12 @@ TEST_CASE("winds over time as a table: what it has, the rest from a steady wind"
     const WindFiles files;
     files.write("wind.csv", "time[s],speed[m/s],direction[deg],gust[m/s]\n0,8,0,0\n4,10,20,1\n4,12,20,1\n");
     const Wind wind = read_wind_table(files / "wind.csv", {.reference_height = 70, .density = 1.1});
-    CHECK(wind.profile(2).speed == Approx(9));
-    CHECK(wind.profile(2).direction == Approx(10 * units::degree));
-    CHECK(wind.profile(2).gust == Approx(0.5));
-    CHECK(wind.profile(4).speed == 12);
-    CHECK(wind.profile(1).reference_height == 70);
-    CHECK(wind.profile(1).density == 1.1);
+    CHECK(wind.without_box(2).speed == Approx(9));
+    CHECK(wind.without_box(2).direction == Approx(10 * units::degree));
+    CHECK(wind.without_box(2).gust == Approx(0.5));
+    CHECK(wind.without_box(4).speed == 12);
+    CHECK(wind.without_box(1).reference_height == 70);
+    CHECK(wind.without_box(1).density == 1.1);
     files.write("wind.csv", "time[s],speed[m/s]\n1,8\n0,9\n");
     check_wind_error([&] { static_cast<void>(read_wind_table(files / "wind.csv", {})); },
                      {"wind.csv", "row 2", "time [s] = 0"});

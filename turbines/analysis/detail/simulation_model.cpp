@@ -26,7 +26,7 @@ struct Pair {
 
 Pair in_the_air(const Turbine& machine, const std::optional<MachineAir>& air) {
     if (!air) return {machine, machine};
-    return {air->on(machine), air->in(air->wind().steady()).on(machine)};
+    return {air->on(machine), air->in(air->wind().mean()).on(machine)};
 }
 
 std::optional<MachineAir> air_on(const Turbine& turbine, const Machine& machine, const SimulationSettings& o,
