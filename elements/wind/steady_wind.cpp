@@ -39,12 +39,20 @@ Vec3 SteadyWind::along(double to) const {
     return {level * std::cos(to), level * std::sin(to), std::sin(upflow)};
 }
 
+Vec3 SteadyWind::normal(double to) const {
+    const double tilt = -std::sin(upflow);
+    return {tilt * std::cos(to), tilt * std::sin(to), std::cos(upflow)};
+}
+
 Vec3 SteadyWind::at(const Vec3& place) const {
     return SteadyWindAtPlaces(*this).at(place);
 }
 
 SteadyWindAtPlaces::SteadyWindAtPlaces(const SteadyWind& wind)
-    : wind_(wind), along_(wind.along(wind.direction)), left_(left_of(wind.direction)) {}
+    : wind_(wind),
+      along_(wind.along(wind.direction)),
+      left_(left_of(wind.direction)),
+      normal_(wind.normal(wind.direction)) {}
 
 Vec3 SteadyWindAtPlaces::at(const Vec3& place) const {
     const double z = wind_.height(place);
@@ -68,10 +76,10 @@ void SteadyWindAtPlaces::at(std::span<const Vec3> places, std::span<Vec3> out) c
 }
 
 Vec3 SteadyWindAtPlaces::at(const Vec3& place, double z, double law) const {
-    Vec3 out = wind_.size(place, z, law, left_) *
-               (wind_.veer == 0 ? along_ : wind_.along(wind_.direction + wind_.veer * (z - wind_.reference_height)));
-    out.z() += wind_.vertical;
-    return out;
+    const double size = wind_.size(place, z, law, left_);
+    if (wind_.veer == 0) return size * along_ + wind_.vertical * normal_;
+    const double to = wind_.direction + wind_.veer * (z - wind_.reference_height);
+    return size * wind_.along(to) + wind_.vertical * wind_.normal(to);
 }
 
 Mat3 SteadyWind::gradient_at(const Vec3& place) const {
@@ -84,10 +92,10 @@ Mat3 SteadyWind::gradient_at(const Vec3& place) const {
         slope.z() = gradient;
         if (shear == Shear::power) slope.z() += exponent * law(z) / z;
         if (shear == Shear::logarithmic && z > roughness) slope.z() += 1 / (z * std::log(reference_height / roughness));
-        turning = veer * size(place, z, law(z), left);
+        turning = veer * (size(place, z, law(z), left) * std::cos(upflow) - vertical * std::sin(upflow));
     }
     Mat3 out = speed * along(to) * slope.transpose();
-    out.col(2) += turning * std::cos(upflow) * left_of(to);
+    out.col(2) += turning * left_of(to);
     return out;
 }
 

@@ -34,7 +34,7 @@ struct SteadyWind {
     double density = 1.225;  ///< of the air, kg/m^3
     double lateral = 0;      ///< 1/m, of a linear change across the wind
     double gust = 0;         ///< m/s, the same at all places
-    double vertical = 0;     ///< m/s, upward, the same at all places
+    double vertical = 0;     ///< m/s, normal to the upflow, upward without one; the same at all places
     double ground = 0;       ///< m, where heights are counted from
 
     /// m/s. Below the ground, and where a law has no value, that at 1e-3 of the reference height.
@@ -52,7 +52,8 @@ private:
     double law(double z) const;
     // @param law  of the height z
     double size(const Vec3& place, double z, double law, const Vec3& left) const;
-    Vec3 along(double to) const;  // unit
+    Vec3 along(double to) const;   // unit
+    Vec3 normal(double to) const;  // unit: upward, and upwind by the upflow
 };
 
 /// SteadyWind::at() for many places: what does not depend on the place is computed once.
@@ -69,7 +70,7 @@ private:
     Vec3 at(const Vec3& place, double z, double law) const;
 
     SteadyWind wind_;
-    Vec3 along_, left_;  // of its direction
+    Vec3 along_, left_, normal_;  // of its direction
 };
 
 }  // namespace cardan
