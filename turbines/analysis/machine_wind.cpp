@@ -6,6 +6,7 @@
 #include "turbines/machine/wind_text.hpp"
 #include "turbines/operation/aeroelastic.hpp"
 #include "turbines/readers/inflow_wind.hpp"
+#include "turbines/readers/wind_box_file.hpp"
 
 #include <utility>
 
@@ -31,8 +32,8 @@ Wind inflow_of_file(const std::filesystem::path& path, const WindSite& site, con
     }
     WindBoxFile read = read_wind_box(path);
     report_notes(report, path, std::move(read.notes));
-    read.steady.density = site.profile.density;
-    return Wind(read.box, read.steady).turned(read.direction, read.upflow);
+    read.profile.density = site.profile.density;
+    return Wind(read.box, read.profile).turned(read.direction, read.upflow);
 }
 
 Wind wind_of_file(const std::filesystem::path& path, const WindSite& site, const Report& report) {

@@ -3,10 +3,12 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/readers/detail/inflow_wind_boxes.hpp"
 #include "turbines/readers/detail/openfast_words.hpp"
 #include "turbines/readers/openfast_file.hpp"
 #include "turbines/tables/csv.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace cardan::turbines {
@@ -16,7 +18,7 @@ namespace {
 SteadyWind steady_wind(OpenFastFile& file, double density) {
     SteadyWind wind;
     wind.speed = file.number("HWindSpeed");
-    wind.reference_height = file.number_of("RefHt", 0);
+    wind.reference_height = file.has("RefHtT1") ? file.number("RefHtT1") : file.number_of("RefHt", 0);
     wind.exponent = file.number_of("PLexp", 0);
     wind.shear = wind.exponent == 0 ? Shear::none : Shear::power;
     wind.density = density;
@@ -42,6 +44,13 @@ SteadyWind uniform_row(const std::vector<double>& row, const UniformWind& common
             .lateral = row[4] / common.length,
             .gust = row[7],
             .vertical = row[3]};
+}
+
+// The same direction, by whole turns as near to another one as can be: winds turn the short way.
+double nearest_turn(double direction, double to) {
+    constexpr double turn = 2 * pi;
+    const double apart = direction - to;
+    return std::abs(apart) < pi ? direction : to + std::remainder(apart, turn);
 }
 
 // The numbers with which the line begins, as many as count.
@@ -76,7 +85,9 @@ Wind uniform_wind(const std::filesystem::path& path, const UniformWind& common) 
             throw ParseError(name, number, 0,
                              text("time = ", row[0], " s after ", times.back(), "; allowed: ascending"));
         times.push_back(row[0]);
-        winds.push_back(uniform_row(row, common));
+        SteadyWind wind = uniform_row(row, common);
+        if (!winds.empty()) wind.direction = nearest_turn(wind.direction, winds.back().direction);
+        winds.push_back(wind);
         try {
             winds.back().check();
         } catch (const InputError& error) {
@@ -87,35 +98,66 @@ Wind uniform_wind(const std::filesystem::path& path, const UniformWind& common) 
     return {std::move(times), std::move(winds)};
 }
 
+// What InflowWind of different ages calls the file of uniform winds and their height.
+struct Spellings {
+    const char *name, *height;
+};
+
 Wind wind_over_time(OpenFastFile& file, double density) {
-    const bool newer = file.has("Filename_Uni");
-    const UniformWind common{
-        newer ? file.number("RefHt_Uni") : file.number_of("RefHt", file.count("RefHt") > 1 ? 1 : 0),
-        file.number("RefLength"), density};
-    if (!(common.height > 0)) file.fail(newer ? "RefHt_Uni" : "RefHt", "allowed: > 0");
+    const Spellings words = file.has("Filename_Uni") ? Spellings{"Filename_Uni", "RefHt_Uni"}
+                            : file.has("FilenameT2") ? Spellings{"FilenameT2", "RefHtT2"}
+                                                     : Spellings{"Filename", "RefHt"};
+    const UniformWind common{file.number_of(words.height, file.count(words.height) > 1 ? 1 : 0),
+                             file.number("RefLength"), density};
+    if (!(common.height > 0)) file.fail(words.height, "allowed: > 0");
     if (!(common.length > 0)) file.fail("RefLength", "allowed: > 0");
-    const char* const keyword = newer ? "Filename_Uni" : "Filename";
+    const char* const keyword = words.name;
     const std::filesystem::path path = file.path_of(keyword, 0);
     return file.follow(keyword, [&] { return uniform_wind(path, common); });
 }
 
+InflowWindType type_of(OpenFastFile& file) {
+    const int kind = file.integer("WindType", 0, 100);
+    if (kind == static_cast<int>(InflowWindType::user))
+        file.fail("WindType",
+                  "WindType = 6; allowed: 1 ... 5 and 7: a user-defined wind is a part of the program "
+                  "that InflowWind was compiled into, not of its files");
+    if (kind < 1 || kind > static_cast<int>(InflowWindType::native_bladed))
+        file.fail("WindType", text("WindType = ", kind,
+                                   "; allowed: 1, steady; 2, uniform over time; 3, TurbSim; 4, "
+                                   "Bladed with a summary; 5, HAWC2; 7, Bladed"));
+    return static_cast<InflowWindType>(kind);
+}
+
 }  // namespace
 
-InflowWindFile read_inflow_wind(const std::filesystem::path& path, double density) {
+InflowWindFile read_inflow_wind(const std::filesystem::path& path, double density, PlaneOrder order) {
     OpenFastFile file = OpenFastFile::read(path);
-    const int kind = file.integer("WindType", 0, 100);
-    if (kind != 1 && kind != 2)
-        file.fail("WindType", text("WindType = ", kind, "; allowed: 1, steady wind, or 2, uniform wind over time"));
     InflowWindFile out;
-    out.wind = kind == 1 ? Wind(steady_wind(file, density)) : wind_over_time(file, density);
-    const double direction = -file.number("PropagationDir") * units::degree,
-                 upflow = file.number_or("VFlowAng", 0) * units::degree;
+    double direction = -file.number("PropagationDir") * units::degree,
+           upflow = file.number_or("VFlowAng", 0) * units::degree;
+    const InflowWindType type = type_of(file);
+    if (type == InflowWindType::steady) {
+        out.wind = steady_wind(file, density);
+    } else if (type == InflowWindType::uniform) {
+        out.wind = wind_over_time(file, density);
+    } else {
+        WindBoxFile box = inflow_wind_box(file, type, order);
+        box.profile.density = density;
+        out.wind = file.checked("WindType", [&] { return Wind(box.box, box.profile); });
+        if (type == InflowWindType::native_bladed) {
+            direction = box.direction;
+            upflow = box.upflow;
+        }
+        out.notes = std::move(box.notes);
+    }
     try {
         out.wind = out.wind.turned(direction, upflow);
     } catch (const InputError& error) {
         file.fail("PropagationDir", text("with it and VFlowAng: ", error.what()));
     }
-    out.notes = file.notes({{{"*"}, "of other kinds of wind, and output"}});
+    for (FileNote& note : file.notes({{{"*"}, "of other kinds of wind, and output"}}))
+        out.notes.push_back(std::move(note));
     return out;
 }
 

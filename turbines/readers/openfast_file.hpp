@@ -169,7 +169,7 @@ private:
     bool truth_of(const Token& token, int line, std::string_view keyword) const;
     const Token& token_of(std::string_view keyword, std::size_t part);
     const Token& single(std::string_view keyword);
-    std::filesystem::path beside(std::string given, int line, std::string_view keyword) const;
+    std::filesystem::path beside(const std::string& given, int line, std::string_view keyword) const;
     std::optional<std::vector<double>> numbers_of(const Line& line) const;
     static Row row_of(const Line& line);
     static std::vector<std::string> names_in(const Line& line);

@@ -1,6 +1,7 @@
 // Names of files in OpenFAST's files.
 #include "mbs/base/error.hpp"
 #include "mbs/base/text.hpp"
+#include "turbines/readers/detail/openfast_words.hpp"
 #include "turbines/readers/openfast_file.hpp"
 
 #include <algorithm>
@@ -38,13 +39,18 @@ std::filesystem::path existing(const std::filesystem::path& wanted) {
 
 }  // namespace
 
-std::filesystem::path OpenFastFile::beside(std::string given, int line, std::string_view keyword) const {
+std::filesystem::path file_beside(const std::filesystem::path& file, std::string name) {
     constexpr auto around = " \t";
-    std::replace(given.begin(), given.end(), '\\', '/');
-    given.erase(0, given.find_first_not_of(around));
-    given.erase(given.find_last_not_of(around) + 1);
-    if (given.empty()) throw ParseError(file_, line, 0, cardan::text(keyword, ": the name of the file is empty"));
-    return existing(std::filesystem::path(file_).parent_path() / given);
+    std::replace(name.begin(), name.end(), '\\', '/');
+    name.erase(0, name.find_first_not_of(around));
+    name.erase(name.find_last_not_of(around) + 1);
+    return name.empty() ? std::filesystem::path() : existing(file.parent_path() / name);
+}
+
+std::filesystem::path OpenFastFile::beside(const std::string& given, int line, std::string_view keyword) const {
+    std::filesystem::path path = file_beside(file_, given);
+    if (path.empty()) throw ParseError(file_, line, 0, cardan::text(keyword, ": the name of the file is empty"));
+    return path;
 }
 
 std::filesystem::path OpenFastFile::path(std::string_view keyword) {

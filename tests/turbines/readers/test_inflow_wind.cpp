@@ -50,11 +50,14 @@ TEST_CASE("inflow wind: steady winds; what has their keywords again; others are 
     CHECK(wind.exponent == 0.2);
     CHECK(wind.direction == Approx(-30 * units::degree));
     CHECK(wind.at({0, 0, 42.672}).y() == Approx(-6));  // a positive angle turns toward -y
-    files.write("wind.dat", main_file("3"));
+    files.write("wind.dat", main_file("6"));
     check_wind_error([&] { static_cast<void>(read_inflow_wind(files / "wind.dat")); },
-                     {"wind.dat:4", "WindType = 3; allowed: 1"});
+                     {"wind.dat:4", "WindType = 6; allowed: 1 ... 5 and 7", "user-defined"});
+    files.write("wind.dat", main_file("8"));
+    check_wind_error([&] { static_cast<void>(read_inflow_wind(files / "wind.dat")); },
+                     {"wind.dat:4", "WindType = 8; allowed: 1, steady"});
     files.write("wind.dat", main_file("1", "8 VFlowAng - deg\n"));
-    CHECK(read_inflow_wind(files / "wind.dat").wind.rows().front().upflow == Approx(8 * units::degree));
+    CHECK(read_inflow_wind(files / "wind.dat").wind.axes()->upflow == Approx(8 * units::degree));
     files.write("wind.dat", main_file("1", "1e9 VFlowAng - deg\n"));
     check_wind_error([&] { static_cast<void>(read_inflow_wind(files / "wind.dat")); },
                      {"wind.dat:5", "upflow [rad] = 17453292.5"});

@@ -2,6 +2,7 @@
 /// Words of OpenFAST's files. Internal to the readers: not installed.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,10 @@ std::optional<double> fortran_number(std::string_view word);
 
 /// Words of a line, separated by blanks, tabs and commas.
 std::vector<std::string_view> words_of(std::string_view line);
+
+/// A file that another one names: relative to its folder, with slashes of either kind; where there is none of this
+/// name, that of one in another case. Empty: the name is.
+std::filesystem::path file_beside(const std::filesystem::path& file, std::string name);
 
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& words);
