@@ -2,12 +2,15 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/base/units.hpp"
+#include "turbines/analysis/detail/rounded.hpp"
 #include "turbines/machine/result.hpp"
 #include "turbines/machine/wind_text.hpp"
 #include "turbines/operation/aeroelastic.hpp"
 #include "turbines/readers/inflow_wind.hpp"
 #include "turbines/readers/wind_box_file.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cardan::turbines {
@@ -98,6 +101,50 @@ Wind wind_of(const WindSource& source, const WindSite& site, const Report& repor
     SteadyWind wind = site.profile;
     wind.speed = *source.speed();
     return wind;
+}
+
+namespace {
+
+// The point of a box next to the reference height, in the middle.
+WindBox::Statistics at_hub(const WindBox& box, double height) {
+    const BoxGrid& grid = box.grid();
+    const double row = std::round((height - grid.lowest) / grid.row_spacing);
+    return box.statistics(std::clamp(static_cast<int>(row), 0, grid.rows - 1), grid.columns / 2);
+}
+
+std::string in_words(const WindBox& box, double height) {
+    const BoxGrid& grid = box.grid();
+    const BoxOrigin& origin = box.data().origin;
+    const WindBox::Statistics hub = at_hub(box, height);
+    std::string files;
+    for (const std::string& file : origin.files) files += (files.empty() ? "" : ", ") + file;
+    return text("turbulence: ", files.empty() ? "made in memory" : files, origin.format.empty() ? "" : ", ",
+                origin.format, "; ", grid.columns, " x ", grid.rows, " points, ", rounded(grid.width()), " x ",
+                rounded(grid.height()), " m, ", rounded(grid.duration()), " s in steps of ", rounded(grid.time_step),
+                " s", box.data().periodic ? ", periodic" : "", ", passing at ", rounded(box.data().speed),
+                " m/s; standard deviations at the hub ", rounded(hub.deviation.x()), ", ", rounded(hub.deviation.y()),
+                ", ", rounded(hub.deviation.z()), " m/s", origin.checksum.empty() ? "" : "; checksum ", origin.checksum,
+                origin.note.empty() ? "" : "; ", origin.note);
+}
+
+std::string in_words(const Gust& gust) {
+    const auto degrees = [](double angle) { return rounded(angle * units::to_degrees); };
+    std::string size;
+    if (gust.speed != 0) size += text(", ", rounded(gust.speed), " m/s");
+    if (gust.angle != 0) size += text(", ", degrees(gust.angle), " deg");
+    if (gust.gradient != 0) size += text(", ", rounded(gust.gradient), " m/s per m");
+    return text("gust: ", name_of(gust.kind), size, ", from ", rounded(gust.start), " to ", rounded(gust.end()), " s");
+}
+
+}  // namespace
+
+std::string in_words(const Wind& wind) {
+    if (wind.is_steady()) return {};
+    std::string out;
+    if (wind.gust()) out += in_words(*wind.gust());
+    if (wind.box() != nullptr)
+        out += (out.empty() ? "" : "; ") + in_words(*wind.box(), wind.rows().front().reference_height);
+    return out.empty() ? text("wind over ", rounded(wind.times().back() - wind.times().front()), " s of a table") : out;
 }
 
 double start_speed(const WindSource& source, const AirSettings& settings) {

@@ -30,6 +30,8 @@ WindSite wind_site(const Turbine& turbine, const Machine& machine, const AirSett
 /// The wind of a source, whatever kind it is of. Entries of a file that are not used are reported.
 /// @throws InputError for a result without wind, and for a shear where the wind has its own; ParseError, FileError
 Wind wind_of(const WindSource& source, const WindSite& site, const Report& report = {});
+/// A wind that changes with time in words, with the seed and the checksum of a box; empty: it is steady.
+std::string in_words(const Wind& wind);
 /// Speed of the wind at the hub that a run starts in, m/s.  @throws InputError, ParseError, FileError
 double start_speed(const WindSource& source, const AirSettings& settings);
 

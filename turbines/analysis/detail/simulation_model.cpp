@@ -35,8 +35,9 @@ std::optional<MachineAir> air_on(const Turbine& turbine, const Machine& machine,
     const Aerodynamics air = air_of(machine, o.air);
     report_remark(report, {Remark::Kind::taken, text("air of the run: ", air_in_equilibrium(air))});
     const WindSite site = wind_site(turbine, machine, o.air, air.density);
-    return MachineAir(turbine, air.blade, wind_of(*o.wind, site, report), air.options,
-                      support_on(turbine, machine, air.support));
+    const Wind wind = wind_of(*o.wind, site, report);
+    if (!wind.is_steady()) report_remark(report, {Remark::Kind::taken, turbines::in_words(wind)});
+    return MachineAir(turbine, air.blade, wind, air.options, support_on(turbine, machine, air.support));
 }
 
 solvers::PeriodicSteadyState rotation_in_wind(const Turbine& at_start, const SimulationSettings& o,
