@@ -27,6 +27,7 @@ constexpr std::array commands{
     Command{"modes", "modes at one rotor speed, with pictures of their shapes", modes_command},
     Command{"steady", "steady state at one rotor speed: deflections and loads over a revolution", steady_command},
     Command{"simulate", "motion in time", simulate_command},
+    Command{"wind", "turbulent wind: made for a machine, or looked at", wind_command},
     Command{"linearise", "linear model for the design of controllers", linearise_command},
     Command{"flutter", "rotor speeds at which a blade flutters or diverges", flutter_command},
     Command{"convert", "a machine to our own YAML, a time history to CSV", convert_command},
@@ -41,6 +42,7 @@ constexpr std::array examples{
     std::pair("cardan campbell MODEL --wind 4:24:2", "the same in the wind, with the damping of the air"),
     std::pair("cardan steady MODEL --wind 4:24:2", "power curve, deflections and loads"),
     std::pair("cardan simulate MODEL --wind 12", "motion in a wind of 12 m/s"),
+    std::pair("cardan wind MODEL --speed 12", "turbulent wind for the machine, as a file (.bts)"),
     std::pair("cardan plot A.h5 B.h5", "two results of one kind over each other")};
 
 void print_usage(std::FILE* to) {

@@ -8,6 +8,7 @@ int campbell_command(int argc, char** argv);
 int modes_command(int argc, char** argv);
 int steady_command(int argc, char** argv);
 int simulate_command(int argc, char** argv);
+int wind_command(int argc, char** argv);
 int linearise_command(int argc, char** argv);
 int flutter_command(int argc, char** argv);
 int convert_command(int argc, char** argv);
