@@ -5,6 +5,7 @@
 #include "mbs/base/sizes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 

@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <complex>
+#include <memory>
 #include <span>
 #include <thread>
+#include <tuple>
+#include <vector>
 
 namespace cardan {
 

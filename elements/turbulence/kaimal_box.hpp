@@ -22,8 +22,9 @@ enum class Synthesis : std::uint8_t {
     fourier
 };
 
+/// How a box is made of a model: which one of all boxes, by what method, on how many threads.
 struct KaimalOptions {
-    std::uint64_t seed = 1;
+    std::uint64_t seed = 1;  ///< another seed is an independent box
     DeviationScaling scaling = DeviationScaling::none;
     Synthesis synthesis = Synthesis::automatic;
     int threads = 1;  ///< 0: one per processor; the box is the same with any number
@@ -46,7 +47,7 @@ struct KaimalOptions {
 ///
 /// The same options make the same box on every machine, to 1e-6 of the standard deviation, and to the last bit with
 /// any number of threads; another grid, time or method is another box. A box of 31 x 31 points and 12 000 steps takes
-/// 1.8 s on one core of 2.6 GHz (bench/turbulence.cpp), and 140 MB.
+/// 1.9 s on one core of 2.6 GHz (bench/turbulence.cpp), and 140 MB.
 /// @param grid  `lowest` is carried over and has no influence; spacings may differ
 /// @return no steps and no numbers if it was cancelled
 /// @throws InputError for a model or a grid out of range, such as steps with a prime factor above 100

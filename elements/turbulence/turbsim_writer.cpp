@@ -6,11 +6,14 @@
 #include "mbs/base/sizes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace cardan {
 

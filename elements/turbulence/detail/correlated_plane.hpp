@@ -12,12 +12,13 @@
 
 namespace cardan::detail {
 
+/// The points of a grid across the wind.
 struct PlaneGrid {
     int rows = 0, columns = 0;
     double row_spacing = 0, column_spacing = 0;  ///< m
 
     int points() const { return rows * columns; }
-    double distance(int rows_apart, int columns_apart) const;
+    double distance(int rows_apart, int columns_apart) const;  ///< m
 };
 
 /// How numbers are made that correlate.
