@@ -80,9 +80,9 @@ TEST_CASE("correlated plane: mirrored and turned, the grid has the same correlat
     }
 }
 
-TEST_CASE("correlated plane: 200 000 draws correlate as the factors say", "[crosscheck][slow]") {
+TEST_CASE("correlated plane: 40 000 draws correlate as the factors say", "[crosscheck][slow]") {
     const PlaneGrid grid{3, 4, 20, 15};
-    constexpr int draws = 200000;
+    constexpr int draws = 40000;
     for (const double rate : {0.01, 0.03, 0.2})
         for (const PlaneMethod method : {PlaneMethod::cholesky, PlaneMethod::fourier}) {
             CorrelatedPlane plane(grid, 3);
