@@ -80,10 +80,7 @@ Wind::Wind(std::vector<double> times, std::vector<SteadyWind> rows) : times_(std
 }
 
 Wind::Wind(std::shared_ptr<const WindBox> box, const SteadyWind& steady)
-    : times_{0}, rows_{steady}, box_(std::move(box)) {
-    steady.check();
-    if (!box_) throw InputError("wind", "box", "none", "one; a steady wind needs none");
-}
+    : Wind(Wind(steady).with_box(std::move(box))) {}
 
 SteadyWind Wind::without_box(double time) const {
     const SteadyWind now = row_at(times_, rows_, time);
@@ -136,6 +133,19 @@ Wind Wind::with(const Gust& gust) const {
     gust.check();
     Wind out = *this;
     out.gust_ = gust;
+    return out;
+}
+
+Wind Wind::with_box(std::shared_ptr<const WindBox> box) const {
+    if (!box) throw InputError("wind", "box", "none", "one; a steady wind needs none");
+    Wind out = *this;
+    out.box_ = std::move(box);
+    return out;
+}
+
+Wind Wind::with_axes(const WindAxes& axes) const {
+    Wind out = *this;
+    out.axes_ = axes;
     return out;
 }
 

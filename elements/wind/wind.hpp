@@ -31,8 +31,8 @@ struct WindAxes {
 
 class WindAtTime;
 
-/// A wind: steady, or one that changes linearly between the rows of a table over time and is held before and after them;
-/// with a gust, that changes it, and with a box, whose velocities are added.
+/// A wind: steady, or one that changes linearly between the rows of a table over time and is held before and after
+/// them; with a gust, that changes it, and with a box, whose velocities are added.
 class Wind {
 public:
     Wind(const SteadyWind& steady);  // NOLINT(google-explicit-constructor): a steady wind is one
@@ -49,8 +49,8 @@ public:
     WindAtTime at(double time) const CARDAN_LIFETIME_BOUND;
     /// The wind of a time without the box, before it is turned.
     SteadyWind without_box(double time) const;
-    /// A steady wind near to it: that of the table and the gust at a time, turned, with the speed and the shear of the box's mean over its
-    /// planes at the middle column. That from which runs in time start.
+    /// A steady wind near to it: that of the table and the gust at a time, turned, with the speed and the shear of the
+    /// box's mean over its planes at the middle column. That from which runs in time start.
     SteadyWind mean(double time = 0) const;
 
     bool is_steady() const { return rows_.size() == 1 && !gust_ && !box_; }
@@ -62,6 +62,10 @@ public:
     Wind over(double ground) const;
     /// A copy with a gust.  @throws InputError as Gust::check()
     Wind with(const Gust& gust) const;
+    /// A copy with a box, or another one.  @throws InputError for none
+    Wind with_box(std::shared_ptr<const WindBox> box) const;
+    /// A copy that is turned to these axes and no others.
+    Wind with_axes(const WindAxes& axes) const;
     /// A copy with another answer to what is outside its box; without one it is as it was.
     Wind with_outside(OutsideBox outside) const;
     /// Times at which the wind is not smooth: those of the table and of the gust. Those of a box's planes, which differ

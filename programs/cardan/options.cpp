@@ -70,6 +70,14 @@ void take_air(turbines::Machine& machine, const AirArguments& arguments, Machine
 turbines::WindSource wind_source(const std::string& given) {
     if (given == "none") return turbines::WindSource::none();
     if (std::filesystem::exists(given)) return std::filesystem::path(given);
+    if (!given.empty() && std::isalpha(static_cast<unsigned char>(given.front())) != 0 &&
+        (given.find(':') != std::string::npos || lower_case(given).starts_with("ewm"))) {
+        try {
+            return iec_wind_name(given);
+        } catch (const InputError& error) {
+            throw InputError(text("--wind: ", error.what()));
+        }
+    }
     const double speed = number("--wind", given, given, wind_file_format);
     require_not_negative("--wind", "value [m/s]", speed);
     return speed;

@@ -39,9 +39,10 @@ turbines::AirSettings settings_of(const AirArguments& arguments);
 void take_air(turbines::Machine& machine, const AirArguments& arguments, MachineOptions& options);
 
 inline constexpr const char* wind_file_format =
-    "SPEED in m/s, or FILE: CSV with time[s],speed[m/s] and more, InflowWind's main file, or a result (.h5) in the "
-    "wind";
-/// A speed, or the path of a file that exists.
+    "SPEED in m/s; or FILE: CSV with time[s],speed[m/s] and more, a turbulent wind (.bts, .wnd), InflowWind's main "
+    "file, or a result (.h5) in the wind; or NAME of a wind of IEC 61400-1: nwp:12, eog:12, edc+:12, ecd-:12, "
+    "ewsv+:12, ewsh-:12, ewm1, ewm50";
+/// A speed, the path of a file that exists, or the name of a wind of IEC 61400-1.
 /// @throws InputError for other words
 turbines::WindSource wind_source(const std::string& given);
 ///@}

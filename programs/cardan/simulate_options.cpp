@@ -85,6 +85,34 @@ turbines::RotorTorque rotor_torque_of(const std::string& given) {
 
 }  // namespace
 
+namespace {
+
+void add_inflow_options(CommandLine& app, InflowArguments& a) {
+    app.add_option("--wind-outside", a.outside,
+                   "turbulent wind beside its grid, before its first and after its last plane: refuse (an error), hold "
+                   "(as on its edge), repeat (the box again)")
+        .one_of({"refuse", "hold", "repeat"});
+    app.add_option("--wind-class", a.wind_class,
+                   "of IEC 61400-1, for winds by name: I, II, III or S with its reference speed, then A+, A, B or C "
+                   "(default: IA)")
+        .one_word();
+    app.add_option("--gust-start", a.gust_start, "when a gust of the standard begins, s").not_negative();
+}
+
+OutsideBox outside_box(const std::string& word) {
+    return word == "hold" ? OutsideBox::hold : word == "repeat" ? OutsideBox::repeat : OutsideBox::refuse;
+}
+
+IecClass named_class(const std::string& name) {
+    try {
+        return iec_class(name);
+    } catch (const InputError& error) {
+        throw InputError(text("--wind-class: ", error.what()));
+    }
+}
+
+}  // namespace
+
 void declare(CommandLine& app, SimulateArguments& a) {
     add_machine(app, a.machine);
     app.add_option("--duration", a.duration, "simulated time, s (default: the model's, TMax, else 20)");
@@ -108,8 +136,9 @@ void declare(CommandLine& app, SimulateArguments& a) {
     app.add_option("--wind", a.wind,
                    std::string("speed at the hub's height: ") + wind_file_format +
                        "; none: no air (default: the model's, InflowFile, else none)")
-        .type_name("SPEED|FILE|none");
+        .type_name("SPEED|FILE|NAME|none");
     add_air_options(app, a.air);
+    add_inflow_options(app, a.inflow);
     add_wake_option(app, a.air);
     app.add_option(
            "--rotor-torque", a.rotor_torque,
@@ -134,6 +163,9 @@ turbines::SimulationSettings settings_of(const SimulateArguments& a) {
     o.rotor_speed = asked_speed(a.rpm);
     if (!a.wind.empty()) o.wind = wind_source(a.wind);
     o.air = settings_of(a.air);
+    o.air.outside_box = outside_box(a.inflow.outside);
+    if (!a.inflow.wind_class.empty()) o.air.wind_class = named_class(a.inflow.wind_class);
+    o.air.gust_start = a.inflow.gust_start;
     o.controller = controller_of(a);
     o.generator_torque = a.torque;
     o.generator_slope = a.slope;

@@ -23,12 +23,20 @@ struct ControllerArguments {
     std::string pitch_actuator;  ///< HZ[:DAMPING[:DEG/S]]; empty: none
 };
 
+/// Arguments of winds that change with time.
+struct InflowArguments {
+    std::string outside = "refuse";  ///< of a box
+    std::string wind_class;          ///< of IEC 61400-1; empty: I A
+    double gust_start = turbines::AirSettings().gust_start;
+};
+
 struct SimulateArguments {
     MachineOptions machine;
     RunArguments run;
     StationOptions stations;
     ControllerArguments controller;
     AirArguments air;
+    InflowArguments inflow;
     std::optional<double> rpm, torque, azimuth, duration, rated_power;
     std::string start = "steady", rotor_torque, wind;
     double slope = 0;

@@ -6,6 +6,7 @@
 #include "turbines/machine/wind_text.hpp"
 #include "turbines/operation/aeroelastic.hpp"
 #include "turbines/readers/inflow_wind.hpp"
+#include "turbines/readers/wind_box_file.hpp"
 
 #include <utility>
 
@@ -18,12 +19,49 @@ Wind wind_of_result(const std::filesystem::path& path) {
     throw InputError("SimulationSettings::wind", "file", path.string(), "a result of a run in the wind");
 }
 
-Wind wind_of_file(const std::filesystem::path& path, const SteadyWind& airfoil, const Report& report) {
+void report_notes(const Report& report, const std::filesystem::path& path, std::vector<FileNote> notes) {
+    report_remark(report, {.kind = Remark::Kind::file, .text = path.string(), .entries = std::move(notes)});
+}
+
+// The box that a file is by itself, or what InflowWind's main file says.
+Wind inflow_of_file(const std::filesystem::path& path, const WindSite& site, const Report& report) {
+    if (!is_wind_box(path)) {
+        InflowWindFile read = read_inflow_wind(path, site.profile.density);
+        report_notes(report, path, std::move(read.notes));
+        return read.wind;
+    }
+    WindBoxFile read = read_wind_box(path);
+    report_notes(report, path, std::move(read.notes));
+    read.profile.density = site.profile.density;
+    return Wind(read.box, read.profile).turned(read.direction, read.upflow);
+}
+
+Wind wind_of_file(const std::filesystem::path& path, const WindSite& site, const Report& report) {
     if (is_result(path)) return wind_of_result(path);
-    if (lower_case(path.extension().string()) == ".csv") return read_wind_table(path, airfoil);
-    InflowWindFile read = read_inflow_wind(path, airfoil.density);
-    report_remark(report, {.kind = Remark::Kind::file, .text = path.string(), .entries = std::move(read.notes)});
-    return read.wind.over(airfoil.ground);
+    if (lower_case(path.extension().string()) == ".csv") return read_wind_table(path, site.profile);
+    const AirSettings& air = site.air;
+    if (air.shear_exponent != 0)
+        throw InputError("AirSettings::shear_exponent", "value", air.shear_exponent,
+                         text("none beside ", path.string(), ", which has its own"));
+    const Wind read = inflow_of_file(path, site, report).over(site.profile.ground).with_outside(air.outside_box);
+    return air.propagation_direction == 0 && air.upflow == 0 ? read
+                                                             : read.turned(air.propagation_direction, air.upflow);
+}
+
+// With the settings' angles and density; the shear is the standard's, unless there is one.
+Wind wind_of_standard(const IecWindName& name, const WindSite& site) {
+    const SteadyWind& given = site.profile;
+    const IecMachine machine{.wind_class = site.air.wind_class,
+                             .hub_height = given.reference_height,
+                             .rotor_diameter = site.rotor_diameter,
+                             .exponent = site.air.shear_exponent != 0 ? site.air.shear_exponent : iec_normal_exponent};
+    SteadyWind steady = iec_wind(machine, name);
+    steady.direction = given.direction;
+    steady.upflow = given.upflow;
+    steady.density = given.density;
+    steady.ground = given.ground;
+    const Gust gust = iec_gust(machine, name, site.air.gust_start);
+    return gust.kind == GustKind::none ? Wind(steady) : Wind(steady).with(gust);
 }
 
 }  // namespace
@@ -46,12 +84,27 @@ SteadyWind wind_profile(const Turbine& turbine, const Machine& machine, const Ai
     return wind;
 }
 
-Wind wind_of(const WindSource& source, const SteadyWind& airfoil, const Report& report) {
+WindSite wind_site(const Turbine& turbine, const Machine& machine, const AirSettings& settings, double density) {
+    const TurbineDescription& d = machine.description;
+    return {.profile = wind_profile(turbine, machine, settings, density),
+            .rotor_diameter = 2 * (d.hub.radius + d.blade.line.length),
+            .air = settings};
+}
+
+Wind wind_of(const WindSource& source, const WindSite& site, const Report& report) {
     if (source.wind() != nullptr) return *source.wind();
-    if (source.file() != nullptr) return wind_of_file(*source.file(), airfoil, report);
-    SteadyWind wind = airfoil;
+    if (source.file() != nullptr) return wind_of_file(*source.file(), site, report);
+    if (source.iec() != nullptr) return wind_of_standard(*source.iec(), site);
+    SteadyWind wind = site.profile;
     wind.speed = *source.speed();
     return wind;
+}
+
+double start_speed(const WindSource& source, const AirSettings& settings) {
+    // Only the speed at the reference height is asked for, whatever that height is.
+    AirSettings air = settings;
+    air.shear_exponent = 0;
+    return wind_of(source, {.rotor_diameter = 100, .air = air}).mean().speed;
 }
 
 std::string air_in_words(std::string_view wake, bool airfoils_unsteady) {

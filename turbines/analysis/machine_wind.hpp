@@ -19,10 +19,19 @@ Aerodynamics air_of(const Machine& machine, const AirSettings& settings);
 /// rotor's centre.
 SteadyWind wind_profile(const Turbine& turbine, const Machine& machine, const AirSettings& settings, double density);
 
-/// Steady or over time. Entries of a file that are not used are reported.
-/// @param airfoil  for what the source does not say; that of a result is complete
-/// @throws InputError for a result without wind; ParseError, FileError
-Wind wind_of(const WindSource& source, const SteadyWind& airfoil, const Report& report = {});
+/// The place of a wind: what a machine and its settings say of it where the source does not.
+struct WindSite {
+    SteadyWind profile = {};    ///< wind_profile()
+    double rotor_diameter = 0;  ///< m, for gusts
+    AirSettings air = {};
+};
+WindSite wind_site(const Turbine& turbine, const Machine& machine, const AirSettings& settings, double density);
+
+/// The wind of a source, whatever kind it is of. Entries of a file that are not used are reported.
+/// @throws InputError for a result without wind, and for a shear where the wind has its own; ParseError, FileError
+Wind wind_of(const WindSource& source, const WindSite& site, const Report& report = {});
+/// Speed of the wind at the hub that a run starts in, m/s.  @throws InputError, ParseError, FileError
+double start_speed(const WindSource& source, const AirSettings& settings);
 
 /// The air's unsteadiness in words: "wake dynamic, airfoils unsteady".
 /// @param wake  name_of(Wake), or "none"

@@ -13,8 +13,9 @@
 /// Errors name a field as it stands here: "SimulationSettings::tolerance".
 #pragma once
 
-#include "elements/wind/wind.hpp"
 #include "elements/controllers/variable_speed_controller.hpp"
+#include "elements/wind/iec_wind.hpp"
+#include "elements/wind/wind.hpp"
 #include "solvers/time/integrate.hpp"
 #include "turbines/actuators/actuators.hpp"
 #include "turbines/analysis/remark.hpp"
@@ -70,21 +71,28 @@ struct AirSettings {
     bool skewed_wake = true;             ///< the induction is redistributed in a skewed wake
     bool tower_nacelle = true;           ///< the tower's influence on the wind, and the drag of tower and nacelle
     bool induction = true;               ///< false: the rotor induces no velocities
+    /// Beside the grid of a turbulent wind, before its first and after its last plane.
+    OutsideBox outside_box = OutsideBox::refuse;
+    IecClass wind_class = {};  ///< of the machine and its site, for winds of IEC 61400-1 by name
+    double gust_start = 5;     ///< of these, s
 };
 
-/// The wind of a run in time: a speed (steady), a file, a wind with all that it has, or none at all. `= 12`,
-/// `= "gust.csv"`, `= WindSource::none()`.
+/// The wind of a run in time: a speed (steady), a file, a wind of IEC 61400-1 by name, a wind with all that it has, or
+/// none at all. `= 12`, `= "box.bts"`, `= iec_wind_name("eog:11.4")`, `= WindSource::none()`.
 class WindSource {
 public:
     template <class Speed>
     requires std::is_arithmetic_v<Speed> WindSource(
         Speed speed)  // NOLINT(google-explicit-constructor): hub-height wind speed, m/s
         : what_(static_cast<double>(speed)) {}
-    /// CSV of read_wind_table(), InflowWind's main file, or a result (.h5) of a run in the wind. A table has the rest
-    /// from AirSettings.
+    /// CSV of read_wind_table(), InflowWind's main file, a turbulent wind (read_wind_box()), or a result (.h5) of a run
+    /// in the wind. A table has the rest from AirSettings; others are turned by their direction and upflow, but not a
+    /// result.
     template <std::convertible_to<std::filesystem::path> Path>
     WindSource(const Path& file)  // NOLINT(google-explicit-constructor)
         : what_(std::filesystem::path(file)) {}
+    /// Takes a wind of the standard for this machine, with AirSettings::wind_class.
+    WindSource(const IecWindName& name) : what_(name) {}  // NOLINT(google-explicit-constructor)
     /// Takes a wind as it is, whatever AirSettings say.
     WindSource(Wind wind) : what_(std::move(wind)) {}  // NOLINT(google-explicit-constructor)
 
@@ -94,12 +102,13 @@ public:
     bool is_none() const { return std::holds_alternative<std::monostate>(what_); }
     const double* speed() const { return std::get_if<double>(&what_); }
     const std::filesystem::path* file() const { return std::get_if<std::filesystem::path>(&what_); }
+    const IecWindName* iec() const { return std::get_if<IecWindName>(&what_); }
     const Wind* wind() const { return std::get_if<Wind>(&what_); }
 
 private:
     explicit WindSource(std::monostate nothing) : what_(nothing) {}
 
-    std::variant<double, std::filesystem::path, Wind, std::monostate> what_;
+    std::variant<double, std::filesystem::path, IecWindName, Wind, std::monostate> what_;
 };
 
 /// Controller of pitch and generator torque in a run in time.

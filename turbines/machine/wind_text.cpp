@@ -1,5 +1,6 @@
 #include "turbines/machine/wind_text.hpp"
 
+#include "turbines/machine/detail/wind_box_fields.hpp"
 #include "turbines/model/detail/description_writer.hpp"
 #include "turbines/yaml/detail/description_reader.hpp"
 
@@ -41,6 +42,9 @@ struct WindFields {
     Shear shear = Shear::none;
     std::vector<double> times;
     std::array<std::vector<double>, wind_columns.size()> columns;
+    std::optional<Gust> gust = {};
+    std::optional<WindAxes> axes = {};
+    std::optional<WindBoxFields> box = {};
 };
 
 template <class Archive, class Fields>
@@ -49,9 +53,26 @@ void wind_fields(Archive& archive, Fields& f) {
     archive.optional_choice("shear", f.shear, {Shear::none, Shear::power, Shear::logarithmic});
     archive.numbers("time", f.times);
     for (std::size_t k = 0; k < wind_columns.size(); ++k) archive.numbers(wind_columns.at(k).name, f.columns.at(k));
+    archive.optional_group("gust_in_time", f.gust, [&](auto& gust) {
+        archive.optional_choice("kind", gust.kind,
+                                {GustKind::none, GustKind::eog, GustKind::edc, GustKind::ecd, GustKind::ews_vertical,
+                                 GustKind::ews_horizontal});
+        archive.number("start", gust.start);
+        archive.number("duration", gust.duration);
+        archive.number("speed", gust.speed);
+        archive.number("angle", gust.angle);
+        archive.number("gradient", gust.gradient);
+        archive.number("hub_height", gust.hub_height);
+    });
+    archive.optional_group("turned", f.axes, [&](auto& axes) {
+        archive.number("direction", axes.direction);
+        archive.number("upflow", axes.upflow);
+        archive.number("pivot", axes.pivot);
+    });
+    archive.optional_group("box", f.box, [&](auto& box) { wind_box_fields(archive, box); });
 }
 
-Wind wind_of(WindFields fields) {
+Wind wind_of(WindFields fields, const std::filesystem::path& beside) {
     std::vector<SteadyWind> rows(fields.times.size());
     for (SteadyWind& row : rows) row.shear = fields.shear;
     for (std::size_t k = 0; k < wind_columns.size(); ++k) {
@@ -62,7 +83,11 @@ Wind wind_of(WindFields fields) {
         for (std::size_t i = 0; i < rows.size(); ++i)
             rows[i].*wind_columns.at(k).of = values.size() == 1 ? values[0] : values[i];
     }
-    return {std::move(fields.times), std::move(rows)};
+    Wind out(std::move(fields.times), std::move(rows));
+    if (fields.gust) out = out.with(*fields.gust);
+    if (fields.box) out = out.with_box(wind_box_of(*fields.box, beside));
+    if (fields.axes) out = out.with_axes({fields.axes->direction, fields.axes->upflow, fields.axes->pivot});
+    return out;
 }
 
 }  // namespace
@@ -76,6 +101,9 @@ std::string to_yaml(const Wind& wind) {
         for (const SteadyWind& row : wind.rows()) values.push_back(row.*wind_columns.at(k).of);
         if (std::ranges::all_of(values, [&](double value) { return value == values.front(); })) values.resize(1);
     }
+    fields.gust = wind.gust();
+    fields.axes = wind.axes();
+    if (wind.box() != nullptr) fields.box = fields_of(*wind.box());
     Writer writer(BeamLines::exact);
     wind_fields(writer, std::as_const(fields));
     return writer.out + "\n";
@@ -93,7 +121,7 @@ std::optional<Wind> wind_of(const std::string& input_description, const std::str
     wind_fields(reader, fields);
     reader.finish();
     try {
-        return wind_of(std::move(fields));
+        return wind_of(std::move(fields), std::filesystem::path(result).parent_path());
     } catch (const InputError& error) {
         root.fail(error.what());
     }

@@ -31,5 +31,8 @@ enum class PlaneOrder : std::uint8_t { first_plane_first, last_plane_first };
 /// beside it (read_bladed_box()), or the text that names a .wnd of Bladed itself (read_native_bladed_box()).
 /// @throws FileError, ParseError
 WindBoxFile read_wind_box(const std::filesystem::path& path);
+/// Whether a file is one of these by its beginning; InflowWind's main file is none.
+/// @throws FileError
+bool is_wind_box(const std::filesystem::path& path);
 
 }  // namespace cardan::turbines

@@ -182,7 +182,7 @@ void take_operation(const Machine& machine, SimulationSettings& s, const Report&
     const MachineOperation& own = machine.operation;
     const bool known = !own.schedule.empty() || (own.rated_power > 0 && own.rotor_speed > 0);
     if (!s.controller.acts() || s.wind->is_none() || s.rotor_speed || s.machine.pitch || !known) return;
-    const double wind = wind_of(*s.wind, SteadyWind{}).mean().speed;
+    const double wind = start_speed(*s.wind, s.air);
     if (!(wind > 0)) return;
     const Operation at = RigidRotor(machine).operation(wind);
     s.rotor_speed = representable(at.rotor_speed, units::rpm);

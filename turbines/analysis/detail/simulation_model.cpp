@@ -34,8 +34,8 @@ std::optional<MachineAir> air_on(const Turbine& turbine, const Machine& machine,
     if (o.wind->is_none()) return std::nullopt;
     const Aerodynamics air = air_of(machine, o.air);
     report_remark(report, {Remark::Kind::taken, text("air of the run: ", air_in_equilibrium(air))});
-    const SteadyWind profile = wind_profile(turbine, machine, o.air, air.density);
-    return MachineAir(turbine, air.blade, wind_of(*o.wind, profile, report), air.options,
+    const WindSite site = wind_site(turbine, machine, o.air, air.density);
+    return MachineAir(turbine, air.blade, wind_of(*o.wind, site, report), air.options,
                       support_on(turbine, machine, air.support));
 }
 
