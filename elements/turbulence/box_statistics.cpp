@@ -5,6 +5,7 @@
 #include "mbs/base/sizes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -12,13 +13,13 @@ namespace cardan {
 
 namespace {
 
-std::size_t points_of(const BoxGrid& grid) {
+std::size_t grid_points(const BoxGrid& grid) {
     return static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns);
 }
 
 std::vector<double> point_means(const TurbulenceBox& box, int component) {
     const std::vector<float>& values = entry(box.velocity, component);
-    std::vector<double> out(points_of(box.grid));
+    std::vector<double> out(grid_points(box.grid));
     for (int step = 0; step < box.grid.steps; ++step) {
         const float* plane = &values[box.index(step, 0, 0)];
         for (std::size_t p = 0; p < out.size(); ++p) out[p] += plane[p];
@@ -30,7 +31,7 @@ std::vector<double> point_means(const TurbulenceBox& box, int component) {
 // Over time, at every point.
 std::vector<double> point_covariances(const TurbulenceBox& box, int a, int b, const std::vector<double>& means_a,
                                       const std::vector<double>& means_b) {
-    std::vector<double> out(points_of(box.grid));
+    std::vector<double> out(grid_points(box.grid));
     for (int step = 0; step < box.grid.steps; ++step) {
         const float* of_a = &entry(box.velocity, a)[box.index(step, 0, 0)];
         const float* of_b = &entry(box.velocity, b)[box.index(step, 0, 0)];

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* mann_box_name = "Mann's turbulence";
 
-void check_grid(const BoxGrid& grid) {
+void check_mann_grid(const BoxGrid& grid) {
     constexpr int most_steps = 1 << 28, most_across = 1 << 14, largest = 100;
     if (grid.steps < 3 || grid.steps > most_steps)
         throw InputError(mann_box_name, "steps", grid.steps, text("3 to ", most_steps));
@@ -51,13 +51,13 @@ int points_across(const char* what, double period, int points, double spacing, d
 
 void check_mann_options(const MannOptions& options) {
     options.parameters.check();
-    check_grid(options.grid);
+    check_mann_grid(options.grid);
     require_positive(mann_box_name, "speed [m/s]", options.speed);
     if (options.scaling != MannScaling::none)
         require_positive(mann_box_name, "standard deviation to scale to [m/s]", options.sigma);
-    constexpr int most_threads = 1024;
-    if (options.threads < 0 || options.threads > most_threads)
-        throw InputError(mann_box_name, "threads", options.threads, text("0 (one per processor) to ", most_threads));
+    constexpr int limit = 1024;
+    if (options.threads < 0 || options.threads > limit)
+        throw InputError(mann_box_name, "threads", options.threads, text("0 (one per processor) to ", limit));
 }
 
 // Points of a component that are transformed in time together: a line of the memory's cache.
@@ -117,21 +117,7 @@ double mann_factor(const MannOptions& options, const MannBox& box) {
     return 1;
 }
 
-}  // namespace
-
-MannDomain mann_domain(const MannOptions& options) {
-    check_mann_options(options);
-    const BoxGrid& grid = options.grid;
-    const double L = options.parameters.length_scale;
-    MannDomain out;
-    out.columns = points_across("width", options.width, grid.columns, grid.column_spacing, L);
-    out.rows = points_across("height", options.height, grid.rows, grid.row_spacing, L);
-    out.width = out.columns * grid.column_spacing;
-    out.height = out.rows * grid.row_spacing;
-    return out;
-}
-
-MannBox mann_box(const MannOptions& options) {
+MannBox make_mann_box(const MannOptions& options) {
     const detail::MannLattice lattice(options);
     const std::size_t points =
         static_cast<std::size_t>(options.grid.rows) * static_cast<std::size_t>(options.grid.columns);
@@ -142,10 +128,8 @@ MannBox mann_box(const MannOptions& options) {
     box.speed = options.speed;
     box.domain = lattice.domain;
     std::vector<Mat3> covariances(static_cast<std::size_t>(lattice.last1));
-    with_memory("a box of turbulence", [&] {
-        for (std::vector<float>& component : box.velocity)
-            component.resize(static_cast<std::size_t>(options.grid.steps) * points);
-    });
+    for (std::vector<float>& component : box.velocity)
+        component.resize(static_cast<std::size_t>(options.grid.steps) * points);
 
     // Planes, then points: a share of the progress each that is about what they cost.
     const int chunks = static_cast<int>((points + chunk_points - 1) / chunk_points), planes = lattice.last1;
@@ -184,6 +168,29 @@ MannBox mann_box(const MannOptions& options) {
             for (float& value : component) value = static_cast<float>(box.factor * value);
     box.expected *= box.factor * box.factor;
     return box;
+}
+
+}  // namespace
+
+MannDomain mann_domain(const MannOptions& options) {
+    check_mann_options(options);
+    const BoxGrid& grid = options.grid;
+    const double L = options.parameters.length_scale;
+    MannDomain out;
+    out.columns = points_across("width", options.width, grid.columns, grid.column_spacing, L);
+    out.rows = points_across("height", options.height, grid.rows, grid.row_spacing, L);
+    out.width = out.columns * grid.column_spacing;
+    out.height = out.rows * grid.row_spacing;
+    return out;
+}
+
+MannBox mann_box(const MannOptions& options) {
+    return with_memory(
+        [&] {
+            const BoxGrid& grid = options.grid;
+            return text("a box of ", grid.steps, " steps of ", grid.rows, " x ", grid.columns, " points");
+        },
+        [&] { return make_mann_box(options); });
 }
 
 }  // namespace cardan

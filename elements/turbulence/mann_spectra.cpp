@@ -1,33 +1,17 @@
 #include "elements/turbulence/mann_spectra.hpp"
 
+#include "elements/turbulence/detail/panels.hpp"
 #include "elements/turbulence/detail/sheared_wave.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
 namespace cardan {
 
 namespace {
 
-// Calls f(place, weight) at the 10 points of Gauss and Legendre within a panel.
-template <class F>
-void at_panel_nodes(double low, double high, const F& f) {
-    using Rule = boost::math::quadrature::gauss<double, 10>;
-    const double middle = (low + high) / 2, half = (high - low) / 2;
-    for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
-        const double distance = half * Rule::abscissa()[i], weight = half * Rule::weights()[i];
-        f(middle - distance, weight);
-        f(middle + distance, weight);
-    }
-}
-
-template <class F>
-void at_nodes(double low, double high, int panels, const F& f) {
-    const double width = (high - low) / panels;
-    for (int i = 0; i < panels; ++i) at_panel_nodes(low + i * width, low + (i + 1) * width, f);
-}
+using detail::at_nodes;
 
 // Sums over the half k_2 > 0 of Phi exp(i phase), with L and alpha epsilon^(2/3) one: what is odd in k_2 has the sine.
 struct HalfPlane {
@@ -46,7 +30,7 @@ struct HalfPlane {
 // the size of k_1 the tensor changes fast, hence panels of angles that become narrower towards k_2 = 0 on both sides.
 // What has many waves over the distance adds up to nothing: it is faded out smoothly.
 Mat3T<Complex> unit_spectrum(double k1, double gamma, double dy, double dz) {
-    constexpr double inner = 1e-4, outer = 1e5, ratio = 4, waves = 80, of_panel = 6;  // the latter as phases, rad
+    constexpr double inner = 1e-4, outer = 1e5, waves = 50, of_panel = 6;  // the latter as phases, rad
     const double distance = std::hypot(dy, dz);
     const double end = std::min(outer * std::max(k1, 1.0), 1.6 * waves / distance);
     const double low = std::log(std::min(inner * std::min(k1, 1.0), end / 2)), high = std::log(end);
@@ -60,10 +44,7 @@ Mat3T<Complex> unit_spectrum(double k1, double gamma, double dy, double dz) {
             for (const double side : {1.0, -1.0})
                 plane.add(detail::ShearedWave({k1, k2, side * k3}, beta), weight * share, k2 * dy, side * k3 * dz);
         };
-        double outside = pi / 2;
-        for (const double narrow = std::min(k1 / r, 1.0); outside > narrow; outside /= ratio)
-            at_nodes(outside / ratio, outside, split, add);
-        at_nodes(0, outside, split, add);
+        detail::at_nodes_towards_zero(pi / 2, std::min(k1 / r, 1.0), split, add);
     };
     const int panels = static_cast<int>(std::ceil(high - low));
     const double width = (high - low) / panels;
@@ -100,7 +81,7 @@ Mat3 mann_spectrum_over_time(const MannParameters& parameters, double frequency,
 // tensor of large eddies changes fast. Beyond the outermost k turbulence is isotropic.
 Mat3 mann_covariance(const MannParameters& parameters) {
     parameters.check();
-    constexpr double inner = 1e-6, outer = 1e6, narrow = 1e-3, ratio = 8;
+    constexpr double inner = 1e-6, outer = 1e6, narrow = 1e-3;
     HalfPlane space;
     at_nodes(std::log(inner), std::log(outer), 14, [&](double ln_k, double radial) {
         const double k = std::exp(ln_k), beta = mann_shear(k, parameters.gamma);
@@ -111,9 +92,7 @@ Mat3 mann_covariance(const MannParameters& parameters) {
                 space.add(detail::ShearedWave({across * std::sin(azimuth), across * std::cos(azimuth), k3}, beta),
                           share * part, 0, 0);
             };
-            double outside = pi / 2;
-            for (; outside > narrow; outside /= ratio) at_panel_nodes(outside / ratio, outside, add);
-            at_panel_nodes(0, outside, add);
+            detail::at_nodes_towards_zero(pi / 2, narrow, 1, add);
         });
     });
     Mat3 sum = space.sum.real();

@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds="${1:-60}"
 shift || true
 targets=("$@")
-if ((${#targets[@]} == 0)); then targets=(urdf csv openfast aerodyn controller wind description windio checkpoint history diagram); fi
+if ((${#targets[@]} == 0)); then targets=(urdf csv openfast aerodyn controller wind wind_box description windio checkpoint history diagram); fi
 
 # The first byte of a seed of `openfast` says which file it replaces, in the order of fuzz_openfast.cpp.
 seeds_of_openfast() { # <folder>
@@ -30,6 +30,17 @@ seeds_of_aerodyn() { # <folder>
     done
 }
 
+# Likewise, in the order of fuzz_wind_box.cpp.
+seeds_of_wind_box() { # <folder>
+    local file digit=0
+    for file in data/wind/box7.bts data/wind/nrel.wnd data/wind/nrel.sum fuzz/seeds/wind_box/tower.twr \
+        data/wind/native.wnd data/wind/native.ipt data/wind/hawc_u.bin; do
+        { printf '%d' "$digit" && cat "tests/$file"; } >"$1/$(basename "$file")"
+        digit=$((digit + 1))
+    done
+    { printf '7\020\004\005\003' && cat tests/data/wind/hawc_{u,v,w}.bin; } >"$1/hawc.bin"
+}
+
 # Inputs take a second; the limit of one is 300 s of the clock, since beside other work these programs, as the nicest, may
 # get no processor for long.
 fuzz() { # <target>
@@ -38,6 +49,7 @@ fuzz() { # <target>
     case "$target" in
         openfast) seeds_of_openfast "$seeds" ;;
         aerodyn) seeds_of_aerodyn "$seeds" ;;
+        wind_box) seeds_of_wind_box "$seeds" ;;
         windio) cp tests/data/windio/*.yaml "$seeds" ;;
         urdf) cp tests/fuzz/seeds/urdf/* examples/data/*.urdf "$seeds" ;;
         *) cp "tests/fuzz/seeds/$target/"* "$seeds" ;;
@@ -52,7 +64,7 @@ fuzz() { # <target>
 }
 
 mkdir -p build/fuzz/findings
-export -f fuzz seeds_of_openfast seeds_of_aerodyn
+export -f fuzz seeds_of_openfast seeds_of_aerodyn seeds_of_wind_box
 if [[ -n "${CARDAN_INPUTS:-}" ]]; then limit="-runs=$CARDAN_INPUTS"; else limit="-max_total_time=$seconds"; fi
 export limit
 printf '%s\n' "${targets[@]}" | xargs -P "${CARDAN_JOBS:-$(nproc)}" -I '{}' bash -euo pipefail -c 'fuzz {}'

@@ -42,6 +42,10 @@ WindBoxFile read_wind_box(const std::filesystem::path& path) {
     const std::int16_t id = first_number(path);
     if (is_turbsim(id)) return read_turbsim_box(path);
     if (is_bladed(id)) return read_bladed_box(path);
+    const auto in_text = [](int c) { return !is_control(static_cast<char>(c)) || c == '\t' || c == '\n' || c == '\r'; };
+    if (!in_text(id & 0xff) || !in_text((id >> 8) & 0xff))
+        throw FileError(path.string(), text("byte 0: begins with ", id,
+                                            "; allowed: 7 or 8 (TurbSim), -99, -1, -2, -3 (Bladed's kind), or a text"));
     return read_native_bladed_box(path);
 }
 

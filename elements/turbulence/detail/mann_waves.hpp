@@ -23,8 +23,12 @@ struct MannLattice {
     double dk1, dk2, dk3;  ///< rad/m
     /// Largest indices: those of half a sampling rate are left out.
     int last1, last2, last3;
-    double amplitude;  ///< root of alpha epsilon^(2/3) L^(17/3) dk_1 dk_2 dk_3/(4 pi)
+    double amplitude;       ///< root of alpha epsilon^(2/3) L^(17/3) dk_1 dk_2 dk_3/(4 pi)
+    double averaged_below;  ///< (k L)^2
     ShearTable shear;
+
+    /// A of a wave number with k_1 > 0, m/s; those of -k_2 differ by signs (MannPlane).
+    Mat3 root(const Vec3& k) const;
 };
 
 /// One plane of wave numbers of k_1 = index dk_1 > 0; holds the memory for it. Allocates nothing after the first plane.

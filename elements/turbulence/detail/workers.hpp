@@ -15,7 +15,8 @@ namespace cardan::detail {
 /// Calls work(index) for 0 <= index < count, each once, in the order of their indices as threads become free; the
 /// calling thread is one of them. Fewer threads are used where the system has no more.
 /// @param make_work  called once per thread: returns its `work` with what it needs for itself
-/// @param go_on      called by the calling thread alone, with the number of pieces that are done; false ends it
+/// @param go_on      called by the calling thread alone, with the number of pieces that are done, at last with all;
+///                   false ends the work
 /// @return whether all is done. Rethrows the first exception after all threads have ended.
 template <class MakeWork, class GoOn>
 bool share_out(int count, int threads, const MakeWork& make_work, const GoOn& go_on) {
@@ -23,13 +24,14 @@ bool share_out(int count, int threads, const MakeWork& make_work, const GoOn& go
     std::atomic<bool> stop = false;
     std::mutex mutex;
     std::exception_ptr failure;
+    int told = 0;
     const auto run = [&](bool caller) {
         try {
             auto work = make_work();
             for (int index = next++; index < count && !stop; index = next++) {
                 work(index);
                 ++done;
-                if (caller && !go_on(done.load())) stop = true;
+                if (caller && !go_on(told = done)) stop = true;
             }
         } catch (...) {
             const std::lock_guard lock(mutex);
@@ -47,7 +49,9 @@ bool share_out(int count, int threads, const MakeWork& make_work, const GoOn& go
         run(true);
     }
     if (failure) std::rethrow_exception(failure);
-    return done == count;
+    if (done != count) return false;
+    if (told != count) static_cast<void>(go_on(count));
+    return true;
 }
 
 }  // namespace cardan::detail

@@ -44,8 +44,8 @@ TEST_CASE("Mann's spectra: without shear von Karman's", "[analytic]") {
     }
 }
 
-// 2e-5: what its quadrature leaves at the lowest wave numbers; printed to six digits. For all rows also the 5e-4 to which
-// it agrees with the tables of DTU's toolbox.
+// 2e-5: what its quadrature leaves at the lowest wave numbers; printed to six digits. For all rows also the 5e-4 to
+// which it agrees with the tables of DTU's toolbox.
 TEST_CASE("Mann's spectra: another program's, for five Gamma", "[discrete]") {
     const turbines::CsvTable table = mann_table("one_point");
     double largest = 0;

@@ -2,6 +2,7 @@
 #include "mbs/base/mapped_file.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/process_memory.hpp"
 
 #include <algorithm>
 #include <sys/stat.h>
@@ -12,14 +13,6 @@ namespace {
 
 std::string text_in(const MappedFile& file) {
     return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
-}
-
-// Of this process, without pages of files, kB.
-long anonymous_memory() {
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);)
-        if (line.rfind("RssAnon:", 0) == 0) return std::stol(line.substr(8));
-    return 0;
 }
 
 }  // namespace
@@ -69,7 +62,7 @@ TEST_CASE("mapped file: a long one takes no memory of the process", "[property]"
     std::ofstream(path) << "begin";
     constexpr std::uintmax_t length = std::uintmax_t{1} << 30;
     std::filesystem::resize_file(path, length);  // what is not written takes no place on the disk
-    const long before = anonymous_memory();
+    const long before = test::anonymous_memory();
     const MappedFile file(path);
     REQUIRE(file.bytes().size() == length);
     const auto every_page = [&] {
@@ -79,7 +72,7 @@ TEST_CASE("mapped file: a long one takes no memory of the process", "[property]"
     };
     CHECK(every_page() == (64 << 20) / 4096 - 1);
     CHECK(file.bytes().back() == std::byte{0});
-    CHECK(anonymous_memory() - before < 4096);
+    CHECK(test::anonymous_memory() - before < 4096);
 }
 
 }  // namespace cardan::testing::mapped_file_tests
