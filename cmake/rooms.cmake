@@ -51,10 +51,10 @@ room(turbines/operation SEES turbines/aerodynamics solvers/campbell USES boost) 
 room(turbines/machine SEES turbines/yaml turbines/reference_turbines turbines/operation solvers/hdf5) # a machine with all that belongs to it, from whatever source
 room(turbines/analysis SEES turbines/machine turbines/actuators solvers/linear_models) # simulation, Campbell diagram, linear model of a machine
 
-room(programs/shared SEES turbines/analysis turbines/electric solvers/stability solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
+room(programs/shared SEES turbines/analysis turbines/electric elements/turbulence solvers/stability solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf USES cli11) # what programs and studies have in common
 room(programs/cardan SEES programs/shared) # the commands of `cardan`
 room(programs SEES programs/cardan)
-room(examples SEES turbines/analysis turbines/electric solvers/stability solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf solvers/atlas) # short scripts
+room(examples SEES turbines/analysis turbines/electric elements/turbulence solvers/stability solvers/hdf5_models solvers/matlab solvers/pictures mbs/batch mbs/urdf solvers/atlas) # short scripts
 room(examples/studies SEES examples programs/shared) # of papers and methods
 
 # Headers of libraries that only some rooms may include: library(<name> <what they begin with>...)

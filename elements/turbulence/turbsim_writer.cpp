@@ -1,5 +1,6 @@
 #include "elements/turbulence/turbsim_writer.hpp"
 
+#include "elements/turbulence/box_statistics.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/pending_file.hpp"
@@ -88,15 +89,25 @@ void write_turbsim(const std::filesystem::path& path, const TurbulenceBox& box, 
             const Vec3 mean = file.mean.at({0, y, z + file.mean.ground});
             for (int k = 0; k < 3; ++k) entry(means, k).push_back(mean[k]);
         }
-    const auto velocity = [&](int k, int step, std::size_t point) {
-        return entry(box.velocity, k)[static_cast<std::size_t>(step) * points + point] + entry(means, k)[point];
+    // On the tower's line, the first one at the height of the lowest row.
+    int tower_points = 0;
+    const auto middle = static_cast<std::size_t>(centre_column(grid));
+    for (double z = grid.lowest; file.tower && z > 0; z = grid.lowest - tower_points * grid.row_spacing) {
+        const Vec3 mean = file.mean.at({0, 0, z + file.mean.ground});
+        for (int k = 0; k < 3; ++k) entry(means, k).push_back(mean[k]);
+        ++tower_points;
+    }
+    const std::size_t places = points + static_cast<std::size_t>(tower_points);
+    const auto velocity = [&](int k, int step, std::size_t place) {
+        const std::size_t point = place < points ? place : middle;
+        return entry(box.velocity, k)[static_cast<std::size_t>(step) * points + point] + entry(means, k)[place];
     };
     std::vector<Packing> packings;
     for (int k = 0; k < 3; ++k) {
         double lowest = HUGE_VAL, highest = -HUGE_VAL;
         for (int step = 0; step < grid.steps; ++step)
-            for (std::size_t point = 0; point < points; ++point) {
-                const double value = velocity(k, step, point);
+            for (std::size_t place = 0; place < places; ++place) {
+                const double value = velocity(k, step, place);
                 if (!std::isfinite(value))
                     throw InputError("TurbSim file", text("velocity of component ", k, " at step ", step, " [m/s]"),
                                      value, "finite");
@@ -108,9 +119,8 @@ void write_turbsim(const std::filesystem::path& path, const TurbulenceBox& box, 
 
     std::string out;
     with_memory([&] { return text("a TurbSim file of ", grid.steps, " steps at ", points, " points"); },
-                [&] { out.reserve(70 + file.text.size() + 6 * points * static_cast<std::size_t>(grid.steps)); });
+                [&] { out.reserve(70 + file.text.size() + 6 * places * static_cast<std::size_t>(grid.steps)); });
     append_little_endian(out, static_cast<std::int16_t>(file.periodic ? 8 : 7));
-    constexpr std::int32_t tower_points = 0;
     for (const std::int32_t number : {grid.rows, grid.columns, tower_points, grid.steps})
         append_little_endian(out, number);
     const double hub = file.mean.reference_height;
@@ -123,8 +133,8 @@ void write_turbsim(const std::filesystem::path& path, const TurbulenceBox& box, 
     append_little_endian(out, static_cast<std::int32_t>(file.text.size()));
     out += file.text;
     for (int step = 0; step < grid.steps; ++step)
-        for (std::size_t point = 0; point < points; ++point)
-            for (int k = 0; k < 3; ++k) append_little_endian(out, entry(packings, k)(velocity(k, step, point)));
+        for (std::size_t place = 0; place < places; ++place)
+            for (int k = 0; k < 3; ++k) append_little_endian(out, entry(packings, k)(velocity(k, step, place)));
     write_file(path, out);
 }
 

@@ -4,7 +4,7 @@
 ///     TurbulenceRequest request = iec_turbulence(IecTurbulence::ntm, iec_class("IB"), 90, 12);
 ///     request.grid = rotor_grid(90, 126);
 ///     const MadeTurbulence made = make_turbulence(request);
-///     write_turbsim("box.bts", made.box, {.mean = made.mean, .text = made.note});
+///     write_turbsim("box.bts", made.box, {.mean = made.mean, .text = made.note, .tower = true});
 ///     const Wind wind(wind_box_of(made), made.mean);  // or at once
 #pragma once
 

@@ -247,7 +247,7 @@ int make(const WindCommandArguments& a, const std::string& out) {
     MadeTurbulence made = make_turbulence(request);
     if (made.box.grid.steps == 0) return 130;
     progress("file");
-    write_turbsim(out + ".bts", made.box, {.mean = made.mean, .text = made.note});
+    write_turbsim(out + ".bts", made.box, {.mean = made.mean, .text = made.note, .tower = true});
     made.box = {};  // what is looked at is what the file holds
     end_progress();
 

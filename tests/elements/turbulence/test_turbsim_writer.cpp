@@ -105,6 +105,26 @@ TEST_CASE("TurbSim files: turbulence and mean are within half a step of the rang
     }
 }
 
+TEST_CASE("TurbSim files: points of the tower go down to the ground, with the mean wind of their heights",
+          "[property]") {
+    const test::Folder folder;
+    TurbulenceBox box = box_to_write();
+    box.grid.lowest = 25;
+    write_turbsim(folder / "a.bts", box, {.mean = mean_wind, .text = "", .tower = true});
+    const FileOfTurbsim file(folder / "a.bts");
+    CHECK(file.tower == 3);  // at 25, 15 and 5 m
+    CHECK(file.lowest == 25);
+    REQUIRE(file.numbers.size() == 20 * (15 + 3) * 3);
+    for (int step = 0; step < 20; ++step)
+        for (int point = 0; point < 3; ++point)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t at = static_cast<std::size_t>((step * 18 + 15 + point) * 3) + k;
+                const double mean = k == 0 ? 12 * std::pow((25 - 10 * point) / 80.0, 0.2) : 0;
+                const double turbulence = static_cast<double>(box.velocity[k][box.index(step, 0, 2)]);
+                CHECK(std::abs(file.value(at) - mean - turbulence) < 0.51 / file.slope[k]);
+            }
+}
+
 TEST_CASE("TurbSim files: what is read from one that InflowWind reads is written as it was", "[discrete]") {
     // tests/data/wind/box8_notower.bts: random numbers, periodic; InflowWind (OpenFAST 5.0.0) reads them to 5e-9 m/s.
     const FileOfTurbsim given(std::string(CARDAN_SOURCE_DIR) + "/tests/data/wind/box8_notower.bts");
