@@ -17,7 +17,7 @@ struct WindBoxFile {
     std::shared_ptr<const WindBox> box;
     /// Mean wind to be added to the box; its speed is 0 where the box holds the mean wind. Its reference height is that
     /// of the files, about which the wind is turned (Wind::turned()).
-    SteadyWind profile = {};
+    SteadyWind mean = {};
     double direction = 0;  ///< by which the files turn all of it, to the left, rad
     double upflow = 0;     ///< likewise, upward, rad
     std::vector<FileNote> notes = {};
