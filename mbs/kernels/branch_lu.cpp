@@ -2,8 +2,8 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/base/vector_loops.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/base/registers/vector_loops.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 #include <cmath>
 

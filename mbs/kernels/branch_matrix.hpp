@@ -2,7 +2,7 @@
 /// Matrices with the pattern of the tree.
 #pragma once
 
-#include "mbs/base/packed.hpp"
+#include "mbs/base/registers/packed.hpp"
 #include "mbs/base/types.hpp"
 
 #include <span>

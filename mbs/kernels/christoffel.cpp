@@ -4,7 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/composites.hpp"
 #include "mbs/kernels/detail/added_mass.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 #include <algorithm>
 

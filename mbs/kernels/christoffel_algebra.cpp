@@ -3,7 +3,7 @@
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/detail/added_mass.hpp"
 #include "mbs/kernels/metric.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 namespace cardan {
 

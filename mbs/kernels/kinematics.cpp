@@ -2,7 +2,7 @@
 
 #include "mbs/base/elementary.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 #include <algorithm>
 

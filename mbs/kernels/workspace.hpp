@@ -2,7 +2,7 @@
 /// The memory of the kernels: allocated once per model and thread.
 #pragma once
 
-#include "mbs/model/link.hpp"
+#include "mbs/model/registers/link.hpp"
 
 #include <cstdint>
 
@@ -74,7 +74,7 @@ public:
     std::vector<Momentum> momentum;
     std::vector<Rates> rates;
     /// Along one path from the base, structure of arrays: rows of `stride` times four numbers (see
-    /// mbs/kernels/path_twists.hpp).
+    /// mbs/kernels/registers/path_twists.hpp).
     std::ptrdiff_t stride = 0;
     std::vector<Packed3<S>> branch;
     VectorT<S> zero;

@@ -1,6 +1,6 @@
 // Stiffness and damping of the forces.
 #include "mbs/base/entry.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 #include "mbs/system/forces.hpp"
 
 namespace cardan {

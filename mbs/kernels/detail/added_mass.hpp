@@ -3,7 +3,7 @@
 /// inertias of six rows and columns. Twists and forces are [angular; linear] in base axes.
 #pragma once
 
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 namespace cardan {
 

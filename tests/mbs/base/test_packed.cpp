@@ -1,6 +1,6 @@
 // The vectors of the kernels against Eigen's, in both of their forms: registers of four doubles and complex numbers.
 #include "mbs/base/elementary.hpp"
-#include "mbs/base/packed.hpp"
+#include "mbs/base/registers/packed.hpp"
 #include "mbs/model/inertia.hpp"
 #include "mbs/model/spatial.hpp"
 #include "tests/support/catch.hpp"

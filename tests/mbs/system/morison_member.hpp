@@ -3,7 +3,7 @@
 #pragma once
 
 #include "mbs/base/entry.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 #include "mbs/system/system.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Fields of wrenches: the same as loads on frames where they are constant, and what they add to the loads of joints.
 #include "mbs/base/error.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 #include "mbs/system/joint_loads.hpp"
 #include "tests/mbs/system/forced_tree.hpp"
 #include "tests/support/catch.hpp"

@@ -15,7 +15,7 @@
 // turn with w + (kappa - w.z) z, kappa = (w.x) (s.z) / (s.x), s the shaft, and the angle of the chord against them
 // changes by kappa - w.z. The section's rate about its span, omega . z, changes by z . (omega_a x w), and by w . z.
 #include "mbs/base/entry.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"
 
 namespace cardan::turbines {

@@ -1,8 +1,8 @@
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"
 
 #include "mbs/base/elementary.hpp"
-#include "mbs/base/packed.hpp"
-#include "mbs/base/vectorised.hpp"
+#include "mbs/base/registers/packed.hpp"
+#include "mbs/base/registers/vectorised.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "turbines/aerodynamics/detail/body_motion.hpp"
 
-#include "mbs/base/packed.hpp"
-#include "mbs/base/vectorised.hpp"
+#include "mbs/base/registers/packed.hpp"
+#include "mbs/base/registers/vectorised.hpp"
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 /// element by element. The fourth number of a vector is zero.
 #pragma once
 
+#include "mbs/base/registers/vectorised.hpp"
 #include "mbs/base/types.hpp"
-#include "mbs/base/vectorised.hpp"
 
 #include <type_traits>
 
