@@ -22,7 +22,7 @@ Christoffel::Christoffel(const Model& model) : model_(&model) {
     }
     const auto what = [&] { return text("the Christoffel symbols of ", model.size(), " bodies (", stored_, ")"); };
     with_memory(what, [&] {
-        values_.assign(values, Packed3<double>::zero());
+        values_ = AlignedNumbers(values);
         paths_.resize(on_paths);
     });
     for (int m = 0; m < model.size(); ++m) {
@@ -34,7 +34,7 @@ Christoffel::Christoffel(const Model& model) : model_(&model) {
 
 std::span<const double> Christoffel::table(int m) const {
     const std::size_t d = static_cast<std::size_t>(model_->body(m).depth);
-    return {numbers(values_.data() + entry(value_offset_, m)), d * stride(m)};
+    return {values_.data() + 4 * entry(value_offset_, m), d * stride(m)};
 }
 
 std::size_t Christoffel::stride(int m) const {
@@ -134,7 +134,7 @@ CARDAN_VECTORISED void fill(int n, const Model::Link* links, const Workspace::Fr
 }
 
 // K(a, b) = S_a . B S_b, where B belongs to the subtree of m and to the twist of m.
-void add_added_mass_symbols(const Kinematics& kin, const Christoffel& gamma, Packed3<double>* values,
+void add_added_mass_symbols(const Kinematics& kin, const Christoffel& gamma, double* values,
                             const std::size_t* offset) {
     const Workspace& ws = kin.workspace();
     for (const Workspace::Entraining& at : ws.entraining) {
@@ -142,7 +142,7 @@ void add_added_mass_symbols(const Kinematics& kin, const Christoffel& gamma, Pac
         const Vec3 o = entry(ws.frame, m).o.vector();
         const Mat6 B = coriolis_inertia<double>(at.I, twist_column(kin, m, o));
         const std::span<const int> path = gamma.path(m);
-        double* const K = numbers(values + offset[m]);
+        double* const K = values + 4 * offset[m];
         for (std::size_t b = 0; b < path.size(); ++b) {
             const Vec6 force = B * twist_column(kin, path[b], o);
             for (std::size_t a = 0; a + 1 < path.size(); ++a)  // zero for a = m
@@ -159,7 +159,7 @@ void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma) {
     Workspace& ws = kin.workspace();
     const Model& model = kin.model();
     fill(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
-         PathTwists<double>(ws.branch.data(), ws.stride), gamma.values_.data(), gamma.value_offset_.data());
+         PathTwists<double>(ws.branch.data(), ws.stride), vectors(gamma.values_.data()), gamma.value_offset_.data());
     add_added_mass_symbols(kin, gamma, gamma.values_.data(), gamma.value_offset_.data());
 }
 

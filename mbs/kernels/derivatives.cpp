@@ -279,7 +279,7 @@ void inverse_dynamics_derivatives(const Kinematics& kin, VectorIn qd, VectorIn q
                                   BranchMatrix& dtau_dqd) {
     require_model(in_derivatives, "matrix dtau_dq", dtau_dq.model().serial(), kin.model().serial());
     require_model(in_derivatives, "matrix dtau_dqd", dtau_dqd.model().serial(), kin.model().serial());
-    const auto sink = [](BranchMatrix& A) { return BranchSink{A.rows(), A.columns(), A.offset()}; };
+    const auto sink = [](BranchMatrix& A) { return BranchSink(A); };
     run(arguments(kin, qd, qdd), sink(dtau_dq), sink(dtau_dqd));
     const auto add = [](BranchMatrix& A) { return [&A](int a, int b, double value) { A.add(a, b, value); }; };
     add_added_mass_derivatives(kin, add(dtau_dq), add(dtau_dqd));

@@ -2,7 +2,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/detail/added_mass.hpp"
-#include "mbs/kernels/dynamics.hpp"
+#include "mbs/kernels/detail/articulated.hpp"
 
 #include <algorithm>
 
@@ -38,6 +38,12 @@ CARDAN_INLINE void subtract(Packed33<double>& X, const Packed3<double>& u, const
 }
 
 }  // namespace
+
+ForwardDynamics::ForwardDynamics(const ForwardDynamics& other) = default;
+ForwardDynamics::ForwardDynamics(ForwardDynamics&& other) noexcept = default;
+ForwardDynamics& ForwardDynamics::operator=(const ForwardDynamics& other) = default;
+ForwardDynamics& ForwardDynamics::operator=(ForwardDynamics&& other) noexcept = default;
+ForwardDynamics::~ForwardDynamics() = default;
 
 ForwardDynamics::ForwardDynamics(const Model& model) : ForwardDynamics(model, model.coordinates().driven()) {}
 

@@ -104,7 +104,7 @@ void metric(const Kinematics& kin, BranchMatrix& g) {
     composites(kin);
     Workspace& ws = kin.workspace();
     run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
-        PathTwists<double>(ws.branch.data(), ws.stride), BranchSink{g.rows(), g.columns(), g.offset()});
+        PathTwists<double>(ws.branch.data(), ws.stride), BranchSink(g));
     add_added_mass(kin, [&](int a, int b, double value) { g.add(a, b, value); });
     for (const Model::Spin& armature : model.armatures())
         for (const auto& [a, sa] : armature.spin)

@@ -3,7 +3,7 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/kernels/dynamics.hpp"
+#include "mbs/kernels/detail/articulated.hpp"
 #include "mbs/model/spatial.hpp"
 
 namespace cardan {

@@ -119,6 +119,23 @@ struct Packed33 {  // NOLINT(bugprone-reserved-identifier): clang's name of the 
     }
 };
 
+/// The numbers of vectors that stand one after the other, one by one.
+template <class S>
+CARDAN_INLINE const S* numbers(const Packed3<S>* vectors) {
+    return reinterpret_cast<const S*>(vectors);
+}
+template <class S>
+CARDAN_INLINE S* numbers(Packed3<S>* vectors) {
+    return reinterpret_cast<S*>(vectors);
+}
+/// The vectors that numbers fill, four each, from a multiple of 32 bytes on.
+CARDAN_INLINE const Packed3<double>* vectors(const double* numbers) {
+    return static_cast<const Packed3<double>*>(static_cast<const void*>(numbers));
+}
+CARDAN_INLINE Packed3<double>* vectors(double* numbers) {
+    return static_cast<Packed3<double>*>(static_cast<void*>(numbers));
+}
+
 /// A constant in the scalar of the kernel.
 template <class S>
 CARDAN_INLINE Packed3<S> packed(const Packed3<double>& v) {

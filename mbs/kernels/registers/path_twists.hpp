@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mbs/base/entry.hpp"
+#include "mbs/kernels/branch_matrix.hpp"
 #include "mbs/kernels/kinematics.hpp"
 
 namespace cardan {
@@ -60,16 +61,6 @@ CARDAN_INLINE PointTwist<S> own_twist_at(const KinematicsT<S>& kin, int a, const
 /// Model::body(a).parent, likewise without checks.
 inline int own_parent(const Model& model, int a) {
     return entry(model.links(), a).parent;
-}
-
-/// The numbers of a row, one by one.
-template <class S>
-CARDAN_INLINE const S* numbers(const Packed3<S>* columns) {
-    return reinterpret_cast<const S*>(columns);
-}
-template <class S>
-CARDAN_INLINE S* numbers(Packed3<S>* columns) {
-    return reinterpret_cast<S*>(columns);
 }
 
 /// Columns of all bodies of the run that starts with body `first`; returns one past its last body. The columns of a
@@ -132,6 +123,9 @@ struct DenseSink {
 
 /// Copies them into the memory of a BranchMatrix.
 struct BranchSink {
+    explicit BranchSink(BranchMatrix& to)
+        : rows(vectors(to.rows())), columns(vectors(to.columns())), offset(to.offset()) {}
+
     Packed3<double>*rows, *columns;
     const std::size_t* offset;
 
