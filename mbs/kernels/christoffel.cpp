@@ -66,7 +66,7 @@ struct TableRows {
 // K(a, b) = v_a . f_b + w_a . t_b with v the velocities at the centre C of the subtree of the last column m,
 // f = M w x v_m and t = P w x w_m. A prismatic b has w = 0, which makes its column vanish: the factor (1 - s_b).
 CARDAN_INLINE void branch_columns(const PathTwists<double>& path, std::ptrdiff_t depth,
-                                  const Workspace::Inertia& body) {
+                                  const KernelArrays::Inertia& body) {
     using enum TableRows::Row;
     using Columns = Packed3<double>;
     const Columns cx = broadcast<0>(body.C), cy = broadcast<1>(body.C), cz = broadcast<2>(body.C);
@@ -120,8 +120,8 @@ CARDAN_INLINE void fill_table(const PathTwists<double>& path, std::ptrdiff_t dep
     }
 }
 
-CARDAN_VECTORISED void fill(int n, const Model::Link* links, const Workspace::Frame* frame,
-                            const Workspace::Inertia* composite, const PathTwists<double>& path,
+CARDAN_VECTORISED void fill(int n, const Model::Link* links, const KernelArrays::Frame* frame,
+                            const KernelArrays::Inertia* composite, const PathTwists<double>& path,
                             Packed3<double>* values, const std::size_t* offset) {
     for (int first = 0; first < n;) {
         const int end = set_run(path, links, frame, first, n);
@@ -136,8 +136,8 @@ CARDAN_VECTORISED void fill(int n, const Model::Link* links, const Workspace::Fr
 // K(a, b) = S_a . B S_b, where B belongs to the subtree of m and to the twist of m.
 void add_added_mass_symbols(const Kinematics& kin, const Christoffel& gamma, double* values,
                             const std::size_t* offset) {
-    const Workspace& ws = kin.workspace();
-    for (const Workspace::Entraining& at : ws.entraining) {
+    const KernelArrays& ws = kin.arrays();
+    for (const KernelArrays::Entraining& at : ws.entraining) {
         const int m = at.body;
         const Vec3 o = entry(ws.frame, m).o.vector();
         const Mat6 B = coriolis_inertia<double>(at.I, twist_column(kin, m, o));
@@ -156,7 +156,7 @@ void add_added_mass_symbols(const Kinematics& kin, const Christoffel& gamma, dou
 void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma) {
     require_model("Christoffel symbols", "table", gamma.model().serial(), kin.model().serial());
     composites(kin);
-    Workspace& ws = kin.workspace();
+    KernelArrays& ws = kin.arrays();
     const Model& model = kin.model();
     fill(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
          PathTwists<double>(ws.branch.data(), ws.stride), vectors(gamma.values_.data()), gamma.value_offset_.data());

@@ -11,7 +11,7 @@ namespace cardan {
 namespace {
 
 // Inertia of a body alone about its joint origin.
-CARDAN_INLINE void rigid(const Model::Link& link, const Workspace::Frame& frame, const Packed33<double>& J,
+CARDAN_INLINE void rigid(const Model::Link& link, const KernelArrays::Frame& frame, const Packed33<double>& J,
                          Packed33<double>& A, Packed33<double>& C, Packed33<double>& M) {
     using P3 = Packed3<double>;
     if (link.massless) {
@@ -107,7 +107,7 @@ struct ForwardDynamics::Arrays {
     std::ptrdiff_t n;
     const Model::Link* links;
     const int* order;
-    const Workspace::Frame* frame;
+    const KernelArrays::Frame* frame;
     const Packed33<double>* J;
     const double* armature;
     const char* held;
@@ -296,7 +296,7 @@ void ForwardDynamics::couple(const Arrays& arrays) {
 void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator) {
     // (The inverse dynamics checks the size of qd.) What the motion needs without the accelerations of the free
     // coordinates; the rest they produce from rest.
-    Workspace& ws = kin.workspace();
+    KernelArrays& ws = kin.arrays();
     const Eigen::Index n = model_->size();
     require_model("forward dynamics", "kinematics", kin.model().serial(), model_->serial());
     require_size("forward dynamics", "Q", Q, n);

@@ -2,7 +2,7 @@
 /// Three-vectors and 3 x 3 matrices as the kernels hold them: a vector fills one register of four numbers.
 ///
 /// Everything here is inlined into functions marked CARDAN_VECTORISED; the same source also works for complex numbers,
-/// element by element. The fourth number of a vector is zero.
+/// element by element. The fourth number of a vector is zero. Headers that are installed do not include it.
 #pragma once
 
 #include "mbs/base/registers/vectorised.hpp"
