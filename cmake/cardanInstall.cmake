@@ -23,9 +23,9 @@ if(CARDAN_BUILD_EXAMPLES)
             DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME cardan)
 endif()
 
-# All headers but those in detail/, which are the inside of the libraries.
+# All headers but those in detail/ and registers/, which are the inside of the libraries.
 install(DIRECTORY mbs elements turbines solvers DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "detail" EXCLUDE PATTERN "data" EXCLUDE)
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "detail" EXCLUDE PATTERN "registers" EXCLUDE PATTERN "data" EXCLUDE)
 foreach(component IN LISTS CARDAN_COMPONENTS)
     install(FILES ${PROJECT_BINARY_DIR}/generated/include/cardan/${component}.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cardan)
 endforeach()

@@ -1,6 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 
-# Fails unless the headers <cardan/<component>.hpp> in the folder `made` include every public header once.
+# Fails unless the headers <cardan/<component>.hpp> in the folder `made` include every public header once and none of those in
+# detail/ and registers/.
 set(included "")
 separate_arguments(components)
 foreach(component IN LISTS components)
@@ -15,7 +16,7 @@ list(REMOVE_ITEM included mbs/base/version.hpp) # made as well
 set(public "")
 foreach(folder IN ITEMS mbs elements solvers turbines)
     file(GLOB_RECURSE headers RELATIVE ${source_dir} ${source_dir}/${folder}/*.hpp)
-    list(FILTER headers EXCLUDE REGEX "/detail/")
+    list(FILTER headers EXCLUDE REGEX "/(detail|registers)/")
     list(APPEND public ${headers})
 endforeach()
 

@@ -1,7 +1,8 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Fails when a source includes what its room must not see (cmake/rooms.cmake), when a source stands in no room, when the
-# inside of a folder (detail/) is included from another one, when an oracle includes the library, and when the drawing in
+# inside of a folder (detail/) is included from another one, when a header that is installed, a program or an example
+# includes one that is not (detail/, registers/), when an oracle includes the library, and when the drawing in
 # CONTRIBUTING.md shows other arrows.
 set(folders mbs elements turbines solvers programs examples bench tests)
 set(rooms "")
@@ -94,16 +95,32 @@ function(check_library allowed header)
     endforeach()
 endfunction()
 
-# check_include(<file> <header>)
+# check_include(<file> <header>): what is within the library only its sources and its headers in detail/ and registers/
+# may include.
 function(check_include file header)
     split(${file})
     set(our_folder ${folder})
     set(our_room ${room})
+    set(within "[.]cpp$|/detail/|/registers/")
+    set(sees_registers FALSE)
+    if(folder MATCHES "^(mbs|elements|turbines|solvers)$" AND file MATCHES ${within})
+        set(sees_registers TRUE)
+    endif()
+    set(sees_detail ${sees_registers})
+    if(folder MATCHES "^(programs|examples)$") # no headers of theirs are installed
+        set(sees_detail TRUE)
+    endif()
     split(${header})
     if(folder IN_LIST folders)
         set(allowed FALSE)
-        if(room IN_LIST sees_${our_room} AND (folder STREQUAL our_folder OR NOT "detail" IN_LIST parts))
+        if(room IN_LIST sees_${our_room})
             set(allowed TRUE)
+        endif()
+        if("detail" IN_LIST parts AND NOT (sees_detail AND folder STREQUAL our_folder))
+            set(allowed FALSE)
+        endif()
+        if("registers" IN_LIST parts AND NOT sees_registers)
+            set(allowed FALSE)
         endif()
     else()
         check_library(allowed ${header} ${uses_${our_room}})

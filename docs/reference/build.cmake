@@ -44,7 +44,7 @@ if(all)
 endif()
 
 foreach(folder IN ITEMS ${generated}/mbs ${source}/mbs ${source}/elements ${source}/solvers ${source}/turbines)
-    file(COPY ${folder} DESTINATION ${tree} FILES_MATCHING PATTERN *.hpp PATTERN detail EXCLUDE)
+    file(COPY ${folder} DESTINATION ${tree} FILES_MATCHING PATTERN *.hpp PATTERN detail EXCLUDE PATTERN registers EXCLUDE)
 endforeach()
 
 file(STRINGS ${source}/cmake/rooms.cmake rows REGEX "^room\\((mbs|elements|solvers|turbines)/")

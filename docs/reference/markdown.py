@@ -57,7 +57,7 @@ def link(text, target, document):
         if heading == heading_names(file)[0]:
             heading = ""
         return f'@ref {label(file, heading)} "{text}"'
-    if re.match("(mbs|elements|solvers|turbines)/", name) and "/detail" not in name:
+    if re.match("(mbs|elements|solvers|turbines)/", name) and not re.search("/(detail|registers)\\b", name):
         if name.endswith(".hpp"):
             return f'@ref {name} "{text}"'
         if os.path.isdir(file):

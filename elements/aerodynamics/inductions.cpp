@@ -1,8 +1,8 @@
 // Inductions of many sections at once: the arithmetic of eight of them fills the registers of the processor.
 #include "elements/aerodynamics/detail/balance.hpp"
 #include "elements/aerodynamics/momentum.hpp"
-#include "mbs/base/vector_math.hpp"
-#include "mbs/base/vectorised.hpp"
+#include "mbs/base/registers/vector_math.hpp"
+#include "mbs/base/registers/vectorised.hpp"
 
 #include <algorithm>
 #include <cmath>

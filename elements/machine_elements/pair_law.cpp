@@ -2,6 +2,7 @@
 
 #include "mbs/base/borrowed.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 #include "mbs/loops/path.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 /// @file
-/// What turbulence a box holds, whatever made it, and scaling it.
+/// Turbulence that a box holds, whatever made it, and scaling it.
 #pragma once
 
 #include "elements/turbulence/turbulence_box.hpp"
@@ -17,7 +17,7 @@ struct RealisedTurbulence {
     Mat3 covariance;  ///< of u, v, w at one point, mean over all points, m^2/s^2
 };
 
-/// What is scaled so that standard deviations are those that were asked for.
+/// Ways to scale a box so that standard deviations are those that were asked for.
 enum class DeviationScaling : std::uint8_t {
     none,    ///< nothing: deviations scatter from seed to seed
     centre,  ///< each component as a whole, by its standard deviation at the centre point

@@ -11,7 +11,7 @@ namespace cardan {
 /// Whether v and w at different points are coherent; the standard has a coherence for u alone.
 enum class TransverseCoherence : std::uint8_t {
     as_u,  ///< that of u
-    none   ///< none between any two points, as TurbSim has it unless told otherwise
+    none   ///< none between any two points, TurbSim's default
 };
 
 /// One-sided spectra of the components u, v, w (downwind, to the left, upward; number 0, 1, 2) and their coherence
@@ -36,7 +36,7 @@ struct Kaimal {
     double spectrum(int component, double frequency) const;
     /// gamma of u.
     double coherence(double frequency, double distance) const;
-    /// What gamma of u loses over a distance: gamma = exp(-decay_rate(f) d), 1/m.
+    /// The rate with which gamma of u falls over a distance: gamma = exp(-decay_rate(f) d), 1/m.
     double decay_rate(double frequency) const;
     /// Variance of a series of so many steps, that is sum S_k(j/T)/T over its lines j = 1 ... steps/2, T = steps
     /// time_step: less than sigma_k^2, m^2/s^2.

@@ -12,7 +12,7 @@
 
 namespace cardan {
 
-/// How points are made coherent at a line of the spectrum.
+/// Ways to make points coherent at a line of the spectrum.
 enum class Synthesis : std::uint8_t {
     automatic,  ///< by whichever of the others is cheaper, line by line
     /// By a factor of the matrix of all points [P. S. Veers, SAND88-0152 (1988)]: exact, points^3/3 operations a line.
@@ -22,7 +22,7 @@ enum class Synthesis : std::uint8_t {
     fourier
 };
 
-/// How a box is made of a model: which one of all boxes, by what method, on how many threads.
+/// Options by which a box is made of a model: which one of all boxes, by what method, on how many threads.
 struct KaimalOptions {
     std::uint64_t seed = 1;  ///< another seed is an independent box
     DeviationScaling scaling = DeviationScaling::none;

@@ -10,13 +10,14 @@
 
 namespace cardan {
 
-/// Which of the planes of a box, counted downwind, a fixed point sees first.
+/// Orders of the planes of a box, counted downwind: the one that a fixed point sees first.
 enum class PlaneOrder : std::uint8_t {
     last_first,  ///< the one furthest downwind, as the wind carries the box: what is higher leads in time
     first_first  ///< mirrored in time, as OpenFAST's InflowWind reads boxes: what is higher lags; spectra are the same
 };
 
-/// What a box is scaled to: one factor for all of it, so that it stays without divergence and keeps the model's ratios.
+/// Aims that a box is scaled to: one factor for all of it, so that it stays without divergence and keeps the model's
+/// ratios.
 enum class MannScaling : std::uint8_t {
     none,      ///< nothing: the dissipation stands, less the variance of eddies that the box has no wave numbers for
     expected,  ///< the deviation of u expected of all seeds: single boxes scatter about it, as the wind does
@@ -24,7 +25,7 @@ enum class MannScaling : std::uint8_t {
     points     ///< the root of the mean variance of u over all points
 };
 
-/// What the amplitudes of large eddies, k L < 6, stand for.
+/// Meanings of the amplitudes of large eddies, k L < 6.
 enum class LargeEddies : std::uint8_t {
     averaged,  ///< for the cells between wave numbers across, over which the tensor is averaged: spectra are right
     pointwise  ///< for the tensor at the wave number itself: no divergence, but u lacks variance and w has too much
@@ -48,7 +49,7 @@ struct MannOptions {
     std::function<void(int done, int total)> progress = {};
 };
 
-/// What a box is cut from: periodic in all directions.
+/// The domain that a box is cut from: periodic in all directions.
 struct MannDomain {
     int rows = 0, columns = 0;     ///< even, without prime factors above 5
     double width = 0, height = 0;  ///< periods, m

@@ -1,5 +1,5 @@
 /// @file
-/// What Mann's tensor says of points: spectra, cross-spectra, variances, by quadrature.
+/// Mann's tensor at points: spectra, cross-spectra, variances, by quadrature.
 #pragma once
 
 #include "elements/turbulence/mann_tensor.hpp"

@@ -11,7 +11,7 @@
 
 namespace cardan {
 
-/// What a file of TurbSim holds beside the turbulence.
+/// The contents of a file of TurbSim beside the turbulence.
 struct TurbsimFile {
     SteadyWind mean;       ///< is added at every point; without direction, veer and upflow, as the box lies across it
     std::string text;      ///< what the file says of itself, at most 200 characters of ASCII

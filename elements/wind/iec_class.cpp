@@ -11,19 +11,19 @@ namespace cardan {
 
 namespace {
 
-struct NamedNumber {
+struct NumberByName {
     std::string_view name;
     double number;
 };
 
 // Longer names first.
-constexpr std::array reference_speeds{NamedNumber{"III", 37.5}, NamedNumber{"II", 42.5}, NamedNumber{"I", 50}};
-constexpr std::array reference_intensities{NamedNumber{"A+", 0.18}, NamedNumber{"A", 0.16}, NamedNumber{"B", 0.14},
-                                           NamedNumber{"C", 0.12}};
+constexpr std::array reference_speeds{NumberByName{"III", 37.5}, NumberByName{"II", 42.5}, NumberByName{"I", 50}};
+constexpr std::array reference_intensities{NumberByName{"A+", 0.18}, NumberByName{"A", 0.16}, NumberByName{"B", 0.14},
+                                           NumberByName{"C", 0.12}};
 
 // The name of a number, empty for none of them.
 std::string_view name_in(const auto& list, double number) {
-    const auto found = std::ranges::find(list, number, &NamedNumber::number);
+    const auto found = std::ranges::find(list, number, &NumberByName::number);
     return found == list.end() ? std::string_view() : found->name;
 }
 
@@ -47,7 +47,7 @@ IecClass iec_class(std::string_view name) {
                           "I, II or III, or S and V_ref in m/s, then A+, A, B or C, such as IB, II A+ or S 45 B");
     };
     const auto category =
-        std::ranges::find_if(reference_intensities, [&](const NamedNumber& one) { return left.ends_with(one.name); });
+        std::ranges::find_if(reference_intensities, [&](const NumberByName& one) { return left.ends_with(one.name); });
     if (category == reference_intensities.end()) throw unknown();
     left.remove_suffix(category->name.size());
     IecClass out;
@@ -56,7 +56,7 @@ IecClass iec_class(std::string_view name) {
         if (!own.good()) throw unknown();
         out.reference_speed = own.value;
     } else {
-        const auto speed = std::ranges::find(reference_speeds, left, &NamedNumber::name);
+        const auto speed = std::ranges::find(reference_speeds, left, &NumberByName::name);
         if (speed == reference_speeds.end()) throw unknown();
         out.reference_speed = speed->number;
     }

@@ -1,7 +1,7 @@
 #include "mbs/base/elementary.hpp"
 
-#include "mbs/base/vector_math.hpp"
-#include "mbs/base/vectorised.hpp"
+#include "mbs/base/registers/vector_math.hpp"
+#include "mbs/base/registers/vectorised.hpp"
 
 #include <algorithm>
 #include <array>

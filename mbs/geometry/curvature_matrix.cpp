@@ -1,5 +1,5 @@
 // The curvature along a motion as a matrix, from composite bodies.
-#include "mbs/base/vectorised.hpp"
+#include "mbs/base/registers/vectorised.hpp"
 #include "mbs/geometry/curvature.hpp"
 
 namespace cardan {

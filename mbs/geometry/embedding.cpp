@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/composites.hpp"
+#include "mbs/kernels/registers/kernel_arrays.hpp"
 
 namespace cardan {
 
@@ -46,12 +47,12 @@ AccelerationField Embedding::acceleration_field() const {
 void Embedding::update(const Kinematics& kin) {
     require_model(in_embedding, "kinematics", kin.model().serial(), model_->serial());
     body_inertias(kin);
-    for (int k = 0; k < model_->size(); ++k) {
-        const std::size_t i = static_cast<std::size_t>(k);
-        binet_[i] = cardan::binet(kin.workspace().J[i]).matrix();
-        places_.e[i] = kin.axis(k);
-        places_.o[i] = kin.origin(k);
-        places_.r[i] = kin.centre_of_mass(k);
+    const KernelArrays& arrays = kin.arrays();
+    for (std::size_t i = 0; i < binet_.size(); ++i) {
+        binet_[i] = cardan::binet(arrays.J[i]).matrix();
+        places_.e[i] = arrays.frame[i].E[2].vector();
+        places_.o[i] = arrays.frame[i].o.vector();
+        places_.r[i] = arrays.frame[i].r.vector();
     }
 }
 

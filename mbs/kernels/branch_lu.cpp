@@ -2,8 +2,8 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/base/vector_loops.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/base/registers/vector_loops.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 #include <cmath>
 
@@ -75,13 +75,13 @@ BranchLu::BranchLu(const Model& model) : a_(model), diagonal_(static_cast<std::s
 
 bool BranchLu::factorise() {
     for (int k = 0; k < a_.size(); ++k) entry(diagonal_, k) = std::abs(a_.row(k).back());
-    return eliminate_all({a_.size(), a_.model().links().data(), a_.offset(), a_.rows(), a_.columns()},
+    return eliminate_all({a_.size(), a_.model().links().data(), a_.offset(), vectors(a_.rows()), vectors(a_.columns())},
                          diagonal_.data());
 }
 
 void BranchLu::solve(VectorOut x) const {
     require_size("solution on branches", "x", x, a_.size());
-    solve_all(a_.size(), a_.model().links().data(), a_.offset(), a_.rows(), a_.columns(), x.data());
+    solve_all(a_.size(), a_.model().links().data(), a_.offset(), vectors(a_.rows()), vectors(a_.columns()), x.data());
 }
 
 }  // namespace cardan

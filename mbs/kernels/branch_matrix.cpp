@@ -2,8 +2,8 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/base/vector_loops.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/base/registers/vector_loops.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 #include <algorithm>
 
@@ -39,19 +39,19 @@ BranchMatrix::BranchMatrix(const Model& model) : model_(&model) {
                         2e-9 * static_cast<double>(blocks * sizeof(Packed3<double>)), " GB)");
         },
         [&] {
-            rows_.assign(blocks, Packed3<double>::zero());
-            columns_.assign(blocks, Packed3<double>::zero());
+            rows_ = AlignedNumbers(blocks);
+            columns_ = AlignedNumbers(blocks);
         });
 }
 
 std::span<const double> BranchMatrix::row(int m) const {
     const auto depth = static_cast<std::size_t>(model_->body(m).depth);
-    return {numbers(rows_.data() + entry(offset_, m)), depth};
+    return {rows_.data() + 4 * entry(offset_, m), depth};
 }
 
 std::span<const double> BranchMatrix::column(int m) const {
     const auto depth = static_cast<std::size_t>(model_->body(m).depth);
-    return {numbers(columns_.data() + entry(offset_, m)), depth - 1};
+    return {columns_.data() + 4 * entry(offset_, m), depth - 1};
 }
 
 double BranchMatrix::operator()(int a, int b) const {
@@ -68,8 +68,7 @@ void BranchMatrix::add(int a, int b, double value) {
     if (!left && !model_->precedes(a, b))
         throw InputError("branch matrix", "entry", text("(", a, ", ", b, ")"), "both indices on one path");
     const int position = model_->body(left ? b : a).depth - 1;
-    const std::size_t first = entry(offset_, left ? a : b);
-    (left ? rows_ : columns_)[first + static_cast<std::size_t>(position / 4)].lanes[position % 4] += value;
+    (left ? own_row(a) : own_column(b))[position] += value;
 }
 
 void BranchMatrix::write(MatrixOut A) const {
@@ -82,7 +81,7 @@ void BranchMatrix::write(MatrixOut A) const {
 void BranchMatrix::multiply(VectorIn x, VectorOut y) const {
     require_size("branch matrix", "x", x, size());
     require_size("branch matrix", "y", y, size());
-    multiply_branches(size(), model_->links().data(), offset_.data(), rows_.data(), columns_.data(), x.data(),
+    multiply_branches(size(), model_->links().data(), offset_.data(), vectors(rows()), vectors(columns()), x.data(),
                       y.data());
 }
 
@@ -90,14 +89,13 @@ bool BranchMatrix::add(MatrixIn A) {
     require_size("branch matrix", "A", A, size(), size());
     Eigen::Index on_branches = 0;
     for (int m = 0; m < size(); ++m) {
-        double* const own_row = numbers(rows_.data() + entry(offset_, m));
-        double* const own_column = numbers(columns_.data() + entry(offset_, m));
+        double *const row = own_row(m), *const column = own_column(m);
         for (int a = m; a >= 0; a = own_parent(*model_, a)) {
             const int position = entry(model_->links(), a).depth - 1;
-            own_row[position] += A(m, a);
+            row[position] += A(m, a);
             on_branches += A(m, a) != 0;
             if (a == m) continue;
-            own_column[position] += A(a, m);
+            column[position] += A(a, m);
             on_branches += A(a, m) != 0;
         }
     }
@@ -108,23 +106,23 @@ void BranchMatrix::set_sum(double a, const BranchMatrix& A, double b, const Bran
                            const BranchMatrix& C) {
     for (const BranchMatrix* m : {&A, &B, &C})
         require_model("sum of branch matrices", "matrix", m->model_->serial(), model_->serial());
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-        rows_[i] = a * A.rows_[i] + b * B.rows_[i] + c * C.rows_[i];
-        columns_[i] = a * A.columns_[i] + b * B.columns_[i] + c * C.columns_[i];
-    }
+    const auto set = [&](double* z, const double* x, const double* y, const double* w) {
+        for (std::size_t i = 0; i < rows_.blocks(); ++i)
+            vectors(z)[i] = a * vectors(x)[i] + b * vectors(y)[i] + c * vectors(w)[i];
+    };
+    set(rows(), A.rows(), B.rows(), C.rows());
+    set(columns(), A.columns(), B.columns(), C.columns());
 }
 
 void BranchMatrix::set_unit(int m) {
     require_index("branch matrix", "row", m, size());
     const auto clear = [](double* first, int count) { std::fill(first, first + count, 0.0); };
     const int position = model_->body(m).depth - 1;
-    clear(numbers(rows_.data() + entry(offset_, m)), position);
-    clear(numbers(columns_.data() + entry(offset_, m)), position);
-    rows_[entry(offset_, m) + static_cast<std::size_t>(position / 4)].lanes[position % 4] = 1;
-    for (int k = m + 1; k < entry(model_->links(), m).subtree_end; ++k) {
-        const std::size_t block = entry(offset_, k) + static_cast<std::size_t>(position / 4);
-        rows_[block].lanes[position % 4] = columns_[block].lanes[position % 4] = 0;
-    }
+    clear(own_row(m), position);
+    clear(own_column(m), position);
+    own_row(m)[position] = 1;
+    for (int k = m + 1; k < entry(model_->links(), m).subtree_end; ++k)
+        own_row(k)[position] = own_column(k)[position] = 0;
 }
 
 }  // namespace cardan

@@ -2,7 +2,8 @@
 /// Matrices with the pattern of the tree.
 #pragma once
 
-#include "mbs/base/packed.hpp"
+#include "mbs/base/aligned_numbers.hpp"
+#include "mbs/base/entry.hpp"
 #include "mbs/base/types.hpp"
 
 #include <span>
@@ -34,11 +35,12 @@ public:
     /// y = A x. @param y  out, size n; must not alias x. Cost O(n d), no allocation.
     void multiply(VectorIn x, VectorOut y) const;
 
-    /// Raw storage for the kernels: rows and columns by coordinate, those of m starting at offset()[m].
-    Packed3<double>* rows() { return rows_.data(); }
-    Packed3<double>* columns() { return columns_.data(); }
-    const Packed3<double>* rows() const { return rows_.data(); }
-    const Packed3<double>* columns() const { return columns_.data(); }
+    /// Raw storage for the kernels: rows and columns by coordinate, those of m starting with block offset()[m] of four
+    /// numbers.
+    double* rows() { return rows_.data(); }
+    double* columns() { return columns_.data(); }
+    const double* rows() const { return rows_.data(); }
+    const double* columns() const { return columns_.data(); }
     const std::size_t* offset() const { return offset_.data(); }
     /// Adds to A_ab; a and b must lie on one path.
     void add(int a, int b, double value);
@@ -51,9 +53,12 @@ public:
     void set_unit(int m);
 
 private:
+    double* own_row(int m) { return rows_.data() + 4 * entry(offset_, m); }
+    double* own_column(int m) { return columns_.data() + 4 * entry(offset_, m); }
+
     const Model* model_;
     std::vector<std::size_t> offset_;
-    std::vector<Packed3<double>> rows_, columns_;
+    AlignedNumbers rows_, columns_;
 };
 
 }  // namespace cardan

@@ -4,7 +4,7 @@
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/composites.hpp"
 #include "mbs/kernels/detail/added_mass.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ Christoffel::Christoffel(const Model& model) : model_(&model) {
     }
     const auto what = [&] { return text("the Christoffel symbols of ", model.size(), " bodies (", stored_, ")"); };
     with_memory(what, [&] {
-        values_.assign(values, Packed3<double>::zero());
+        values_ = AlignedNumbers(values);
         paths_.resize(on_paths);
     });
     for (int m = 0; m < model.size(); ++m) {
@@ -34,7 +34,7 @@ Christoffel::Christoffel(const Model& model) : model_(&model) {
 
 std::span<const double> Christoffel::table(int m) const {
     const std::size_t d = static_cast<std::size_t>(model_->body(m).depth);
-    return {numbers(values_.data() + entry(value_offset_, m)), d * stride(m)};
+    return {values_.data() + 4 * entry(value_offset_, m), d * stride(m)};
 }
 
 std::size_t Christoffel::stride(int m) const {
@@ -66,7 +66,7 @@ struct TableRows {
 // K(a, b) = v_a . f_b + w_a . t_b with v the velocities at the centre C of the subtree of the last column m,
 // f = M w x v_m and t = P w x w_m. A prismatic b has w = 0, which makes its column vanish: the factor (1 - s_b).
 CARDAN_INLINE void branch_columns(const PathTwists<double>& path, std::ptrdiff_t depth,
-                                  const Workspace::Inertia& body) {
+                                  const KernelArrays::Inertia& body) {
     using enum TableRows::Row;
     using Columns = Packed3<double>;
     const Columns cx = broadcast<0>(body.C), cy = broadcast<1>(body.C), cz = broadcast<2>(body.C);
@@ -120,8 +120,8 @@ CARDAN_INLINE void fill_table(const PathTwists<double>& path, std::ptrdiff_t dep
     }
 }
 
-CARDAN_VECTORISED void fill(int n, const Model::Link* links, const Workspace::Frame* frame,
-                            const Workspace::Inertia* composite, const PathTwists<double>& path,
+CARDAN_VECTORISED void fill(int n, const Model::Link* links, const KernelArrays::Frame* frame,
+                            const KernelArrays::Inertia* composite, const PathTwists<double>& path,
                             Packed3<double>* values, const std::size_t* offset) {
     for (int first = 0; first < n;) {
         const int end = set_run(path, links, frame, first, n);
@@ -134,15 +134,15 @@ CARDAN_VECTORISED void fill(int n, const Model::Link* links, const Workspace::Fr
 }
 
 // K(a, b) = S_a . B S_b, where B belongs to the subtree of m and to the twist of m.
-void add_added_mass_symbols(const Kinematics& kin, const Christoffel& gamma, Packed3<double>* values,
+void add_added_mass_symbols(const Kinematics& kin, const Christoffel& gamma, double* values,
                             const std::size_t* offset) {
-    const Workspace& ws = kin.workspace();
-    for (const Workspace::Entraining& at : ws.entraining) {
+    const KernelArrays& ws = kin.arrays();
+    for (const KernelArrays::Entraining& at : ws.entraining) {
         const int m = at.body;
         const Vec3 o = entry(ws.frame, m).o.vector();
         const Mat6 B = coriolis_inertia<double>(at.I, twist_column(kin, m, o));
         const std::span<const int> path = gamma.path(m);
-        double* const K = numbers(values + offset[m]);
+        double* const K = values + 4 * offset[m];
         for (std::size_t b = 0; b < path.size(); ++b) {
             const Vec6 force = B * twist_column(kin, path[b], o);
             for (std::size_t a = 0; a + 1 < path.size(); ++a)  // zero for a = m
@@ -156,10 +156,10 @@ void add_added_mass_symbols(const Kinematics& kin, const Christoffel& gamma, Pac
 void christoffel_first_kind(const Kinematics& kin, Christoffel& gamma) {
     require_model("Christoffel symbols", "table", gamma.model().serial(), kin.model().serial());
     composites(kin);
-    Workspace& ws = kin.workspace();
+    KernelArrays& ws = kin.arrays();
     const Model& model = kin.model();
     fill(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
-         PathTwists<double>(ws.branch.data(), ws.stride), gamma.values_.data(), gamma.value_offset_.data());
+         PathTwists<double>(ws.branch.data(), ws.stride), vectors(gamma.values_.data()), gamma.value_offset_.data());
     add_added_mass_symbols(kin, gamma, gamma.values_.data(), gamma.value_offset_.data());
 }
 

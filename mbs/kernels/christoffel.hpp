@@ -2,6 +2,7 @@
 /// Christoffel symbols of the first kind, Gamma_abc = (d_b g_ac + d_c g_ab - d_a g_bc) / 2.
 #pragma once
 
+#include "mbs/base/aligned_numbers.hpp"
 #include "mbs/kernels/kinematics.hpp"
 
 #include <span>
@@ -57,7 +58,7 @@ private:
     const Model* model_;
     std::vector<std::size_t> value_offset_, path_offset_;
     std::vector<int> paths_;
-    std::vector<Packed3<double>> values_;
+    AlignedNumbers values_;
     std::size_t stored_ = 0;
 };
 

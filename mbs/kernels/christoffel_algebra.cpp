@@ -3,7 +3,7 @@
 #include "mbs/kernels/christoffel.hpp"
 #include "mbs/kernels/detail/added_mass.hpp"
 #include "mbs/kernels/metric.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 namespace cardan {
 
@@ -71,9 +71,9 @@ namespace {
 template <class S>
 struct Distal {
     Distal(const KinematicsT<S>& kin, int m)
-        : M(entry(kin.workspace().composite, m).M),
-          C(entry(kin.workspace().composite, m).C.vector()),
-          P(entry(kin.workspace().composite, m).P.matrix()),
+        : M(entry(kin.arrays().composite, m).M),
+          C(entry(kin.arrays().composite, m).C.vector()),
+          P(entry(kin.arrays().composite, m).P.matrix()),
           own(own_twist_at(kin, m, C)) {}
 
     // For a row b: K_m(a, b) = v_a . f + w_a . t.
@@ -96,10 +96,10 @@ S product(const PointTwist<S>& a, const PointTwist<S>& wrench) {
 template <class S>
 void add_added_mass_along(const KinematicsT<S>& kin, int s, MatrixOutT<S>& X) {
     const Model& model = kin.model();
-    for (const auto& at : kin.workspace().entraining) {
+    for (const auto& at : kin.arrays().entraining) {
         const int m = at.body;
         if (!model.precedes(s, m)) continue;
-        const Vec3T<S> o = entry(kin.workspace().frame, m).o.vector();
+        const Vec3T<S> o = entry(kin.arrays().frame, m).o.vector();
         const Mat6T<S> B = coriolis_inertia<S>(at.I, twist_column(kin, m, o));
         const Vec6T<S> spin = twist_column(kin, s, o), column = B * spin, row = B.transpose() * spin;
         for (int a = own_parent(model, m); a >= 0; a = own_parent(model, a)) {

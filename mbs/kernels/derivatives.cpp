@@ -3,7 +3,7 @@
 
 #include "mbs/kernels/composites.hpp"
 #include "mbs/kernels/detail/added_mass.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 namespace cardan {
 
@@ -13,15 +13,15 @@ namespace {
 // spatial velocity v and acceleration a, their linear parts at o_j.
 enum BranchRows { psi1_w = 0, psi1_u = 3, psi2_w = 6, psi2_u = 9, scratch = 12 };
 
-using Rates = Workspace::Rates;
+using Rates = KernelArrays::Rates;
 
 // Motion of body k; returns Psi' and Psi'' of its coordinate.
-CARDAN_INLINE Rates advance(const Model::Link& link, const Workspace::Frame* frame, std::ptrdiff_t k, double qd,
-                            double qdd, Workspace::Motion* motion) {
+CARDAN_INLINE Rates advance(const Model::Link& link, const KernelArrays::Frame* frame, std::ptrdiff_t k, double qd,
+                            double qdd, KernelArrays::Motion* motion) {
     using P3 = Packed3<double>;
     P3 w = P3::zero(), al = P3::zero(), v = P3::zero(), a = P3::zero();
     if (link.parent >= 0) {
-        const Workspace::Motion& carrier = motion[link.parent];
+        const KernelArrays::Motion& carrier = motion[link.parent];
         w = carrier.w, al = carrier.al, v = carrier.v, a = carrier.a;
         if (!link.coincident) {
             const P3 arm = frame[k].o - frame[link.parent].o, sweep = cross(w, arm);
@@ -51,8 +51,9 @@ CARDAN_INLINE Rates advance(const Model::Link& link, const Workspace::Frame* fra
 }
 
 // Momentum and force of body k alone, moments about its joint origin.
-CARDAN_INLINE void own_load(const Model::Link& link, const Workspace::Frame& frame, const Packed33<double>& J,
-                            const Workspace::Motion& motion, Workspace::Momentum& momentum, Workspace::Load& load) {
+CARDAN_INLINE void own_load(const Model::Link& link, const KernelArrays::Frame& frame, const Packed33<double>& J,
+                            const KernelArrays::Motion& motion, KernelArrays::Momentum& momentum,
+                            KernelArrays::Load& load) {
     using P3 = Packed3<double>;
     if (link.massless) {
         momentum = {P3::zero(), {{P3::zero(), P3::zero(), P3::zero()}}};
@@ -82,8 +83,9 @@ struct Subtree {
     Packed3<double> force_q, moment_q, force_qd, moment_qd;
 };
 
-CARDAN_INLINE Subtree subtree_of(const Model::Link& link, const Workspace::Frame& frame, const Workspace::Inertia& body,
-                                 const Workspace::Momentum& momentum, const Workspace::Load& load, const Rates& rates) {
+CARDAN_INLINE Subtree subtree_of(const Model::Link& link, const KernelArrays::Frame& frame,
+                                 const KernelArrays::Inertia& body, const KernelArrays::Momentum& momentum,
+                                 const KernelArrays::Load& load, const Rates& rates) {
     using P3 = Packed3<double>;
     const P3& e = frame.E[2];
     const P3 arm = body.C - frame.o;
@@ -147,12 +149,12 @@ CARDAN_INLINE void set_rates(const PathTwists<double>& path, std::ptrdiff_t colu
 struct Arguments {
     int n;
     const Model::Link* links;
-    const Workspace::Frame* frame;
-    const Workspace::Inertia* composite;
+    const KernelArrays::Frame* frame;
+    const KernelArrays::Inertia* composite;
     const Packed33<double>* J;
-    Workspace::Motion* motion;
-    Workspace::Momentum* momentum;
-    Workspace::Load* load;
+    KernelArrays::Motion* motion;
+    KernelArrays::Momentum* momentum;
+    KernelArrays::Load* load;
     Rates* rates;
     PathTwists<double> path;
     const double *qd, *qdd;
@@ -201,7 +203,7 @@ Arguments arguments(const Kinematics& kin, VectorIn qd, VectorIn qdd) {
     require_size(in_derivatives, "qd", qd, kin.model().size());
     require_size(in_derivatives, "qdd", qdd, kin.model().size());
     composites(kin);
-    Workspace& ws = kin.workspace();
+    KernelArrays& ws = kin.arrays();
     return {kin.model().size(), kin.model().links().data(),
             ws.frame.data(),    ws.composite.data(),
             ws.J.data(),        ws.motion.data(),
@@ -219,22 +221,22 @@ Vec6 column(const Packed3<double>& angular, const Packed3<double>& linear) {
 //   column m:  S_j . (I Psi''_m + 2 B Psi'_m + S_m x* f)       2 S_j . (I Psi'_m + B S_m)
 template <class Add>
 void add_added_mass_derivatives(const Kinematics& kin, const Add& by_q, const Add& by_qd) {
-    Workspace& ws = kin.workspace();
-    for (Workspace::Entraining& at : ws.entraining) {
+    KernelArrays& ws = kin.arrays();
+    for (KernelArrays::Entraining& at : ws.entraining) {
         at.B.setZero();
         at.f.setZero();
         if (at.own < 0) continue;
-        const Workspace::Motion& motion = entry(ws.motion, at.body);
+        const KernelArrays::Motion& motion = entry(ws.motion, at.body);
         const Mat6 I = own_added_mass(kin, entry(kin.model().added_masses(), at.own));
         at.B = coriolis_inertia<double>(I, twist_column<double>(motion));
         at.f = added_mass_force<double>(I, motion);
     }
     for (std::size_t i = ws.entraining.size(); i-- > 0;) {
-        const Workspace::Entraining& at = ws.entraining[i];
+        const KernelArrays::Entraining& at = ws.entraining[i];
         const int m = at.body;
         const Packed3<double> o = entry(ws.frame, m).o;
         if (at.parent >= 0) {
-            Workspace::Entraining& parent = entry(ws.entraining, at.parent);
+            KernelArrays::Entraining& parent = entry(ws.entraining, at.parent);
             const Mat6 X = twist_shift<double>((o - entry(ws.frame, parent.body).o).vector());
             parent.B += X.transpose() * at.B * X;
             parent.f += X.transpose() * at.f;
@@ -279,7 +281,7 @@ void inverse_dynamics_derivatives(const Kinematics& kin, VectorIn qd, VectorIn q
                                   BranchMatrix& dtau_dqd) {
     require_model(in_derivatives, "matrix dtau_dq", dtau_dq.model().serial(), kin.model().serial());
     require_model(in_derivatives, "matrix dtau_dqd", dtau_dqd.model().serial(), kin.model().serial());
-    const auto sink = [](BranchMatrix& A) { return BranchSink{A.rows(), A.columns(), A.offset()}; };
+    const auto sink = [](BranchMatrix& A) { return BranchSink(A); };
     run(arguments(kin, qd, qdd), sink(dtau_dq), sink(dtau_dqd));
     const auto add = [](BranchMatrix& A) { return [&A](int a, int b, double value) { A.add(a, b, value); }; };
     add_added_mass_derivatives(kin, add(dtau_dq), add(dtau_dqd));

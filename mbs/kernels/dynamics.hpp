@@ -37,6 +37,11 @@ public:
     /// @param driven  size n; true where the acceleration is prescribed
     /// @throws InputError if `driven` has another size.
     ForwardDynamics(const Model& model, std::vector<bool> driven);
+    ForwardDynamics(const ForwardDynamics& other);
+    ForwardDynamics(ForwardDynamics&& other) noexcept;
+    ForwardDynamics& operator=(const ForwardDynamics& other);
+    ForwardDynamics& operator=(ForwardDynamics&& other) noexcept;
+    ~ForwardDynamics();
 
     /// @param Q    generalised forces, size n; on driven coordinates, those in addition to the actuator's; must not
     ///             alias the outputs
@@ -62,30 +67,13 @@ public:
     }
 
 private:
-    /// Articulated inertia about the joint origin, base axes, [A C^T; C M] for [angular; linear]: a subtree whose free
-    /// joints yield. U = I S; yield = 1 / D of the pivot D = S . U.
-    struct Articulated {
-        Packed33<double> A, C, M;
-        Packed3<double> U_angular, U_linear;
-        double yield;
-        Packed3<double> force, moment;    // that pass the joint in the backward sweep
-        Packed3<double> angular, linear;  // acceleration in the forward sweep
-    };
-    /// Numbers on the path from the base to the coordinates that armatures couple, for one of several loads.
-    struct OnPath {
-        double qdd;  ///< in: load; out: acceleration
-        double reaction;
-        Packed3<double> force, moment, angular, linear;
-    };
+    struct Articulated;
+    struct OnPath;
     struct Path {
         int body;
         int parent;  ///< on the path, -1: base
     };
-    /// Added mass of a body, blocks as in Articulated.
-    struct AddedMass {
-        int body;
-        Packed33<double> A, C, M;
-    };
+    struct AddedMass;
     struct Arrays;
     static void factorise(const Arrays& arrays);
     static void backward(const Arrays& arrays, const double* Q, double* qdd, double* reaction);

@@ -2,7 +2,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/detail/added_mass.hpp"
-#include "mbs/kernels/dynamics.hpp"
+#include "mbs/kernels/detail/articulated.hpp"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace cardan {
 namespace {
 
 // Inertia of a body alone about its joint origin.
-CARDAN_INLINE void rigid(const Model::Link& link, const Workspace::Frame& frame, const Packed33<double>& J,
+CARDAN_INLINE void rigid(const Model::Link& link, const KernelArrays::Frame& frame, const Packed33<double>& J,
                          Packed33<double>& A, Packed33<double>& C, Packed33<double>& M) {
     using P3 = Packed3<double>;
     if (link.massless) {
@@ -38,6 +38,12 @@ CARDAN_INLINE void subtract(Packed33<double>& X, const Packed3<double>& u, const
 }
 
 }  // namespace
+
+ForwardDynamics::ForwardDynamics(const ForwardDynamics& other) = default;
+ForwardDynamics::ForwardDynamics(ForwardDynamics&& other) noexcept = default;
+ForwardDynamics& ForwardDynamics::operator=(const ForwardDynamics& other) = default;
+ForwardDynamics& ForwardDynamics::operator=(ForwardDynamics&& other) noexcept = default;
+ForwardDynamics::~ForwardDynamics() = default;
 
 ForwardDynamics::ForwardDynamics(const Model& model) : ForwardDynamics(model, model.coordinates().driven()) {}
 
@@ -101,7 +107,7 @@ struct ForwardDynamics::Arrays {
     std::ptrdiff_t n;
     const Model::Link* links;
     const int* order;
-    const Workspace::Frame* frame;
+    const KernelArrays::Frame* frame;
     const Packed33<double>* J;
     const double* armature;
     const char* held;
@@ -290,7 +296,7 @@ void ForwardDynamics::couple(const Arrays& arrays) {
 void ForwardDynamics::solve(const Kinematics& kin, VectorIn qd, VectorIn Q, VectorOut qdd, VectorOut actuator) {
     // (The inverse dynamics checks the size of qd.) What the motion needs without the accelerations of the free
     // coordinates; the rest they produce from rest.
-    Workspace& ws = kin.workspace();
+    KernelArrays& ws = kin.arrays();
     const Eigen::Index n = model_->size();
     require_model("forward dynamics", "kinematics", kin.model().serial(), model_->serial());
     require_size("forward dynamics", "Q", Q, n);

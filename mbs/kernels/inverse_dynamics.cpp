@@ -8,15 +8,15 @@ namespace {
 
 // Newton-Euler in base axes, base to tip; a is the acceleration of the joint origin, the load that of the body alone.
 template <class S>
-CARDAN_INLINE void forward_sweep(std::ptrdiff_t n, const Model::Link* links, const typename WorkspaceT<S>::Frame* frame,
-                                 const S* qd, const S* qdd, typename WorkspaceT<S>::Motion* motion,
-                                 typename WorkspaceT<S>::Load* load) {
+CARDAN_INLINE void forward_sweep(std::ptrdiff_t n, const Model::Link* links,
+                                 const typename KernelArraysT<S>::Frame* frame, const S* qd, const S* qdd,
+                                 typename KernelArraysT<S>::Motion* motion, typename KernelArraysT<S>::Load* load) {
     using P3 = Packed3<S>;
     for (std::ptrdiff_t k = 0; k < n; ++k) {
         const Model::Link& link = links[k];
         P3 w = P3::zero(), al = P3::zero(), a = P3::zero();
         if (link.parent >= 0) {
-            const typename WorkspaceT<S>::Motion& parent = motion[link.parent];
+            const typename KernelArraysT<S>::Motion& parent = motion[link.parent];
             w = parent.w, al = parent.al, a = parent.a;
             if (!link.coincident) {
                 const P3 arm = frame[k].o - frame[link.parent].o;
@@ -49,7 +49,7 @@ CARDAN_INLINE void forward_sweep(std::ptrdiff_t n, const Model::Link* links, con
 // Adds up the loads of the subtrees, tip to base, and projects them on the joints.
 template <class S>
 CARDAN_INLINE void backward_sweep(std::ptrdiff_t n, const Model::Link* links,
-                                  const typename WorkspaceT<S>::Frame* frame, typename WorkspaceT<S>::Load* load,
+                                  const typename KernelArraysT<S>::Frame* frame, typename KernelArraysT<S>::Load* load,
                                   S* tau) {
     Packed3<S> F = Packed3<S>::zero(), N = Packed3<S>::zero();  // what body k + 1 passes to k, if k carries it
     for (std::ptrdiff_t k = n - 1; k >= 0; --k) {
@@ -72,41 +72,42 @@ CARDAN_INLINE void backward_sweep(std::ptrdiff_t n, const Model::Link* links,
 // does not depend on.
 template <class S>
 void add_added_mass_loads(const KinematicsT<S>& kin, VectorInT<S> qd) {
-    WorkspaceT<S>& ws = kin.workspace();
+    KernelArraysT<S>& ws = kin.arrays();
     for (const auto& at : ws.entraining) {
         const Model::Link& link = entry(kin.model().links(), at.body);
-        const typename WorkspaceT<S>::Frame& frame = entry(ws.frame, at.body);
-        typename WorkspaceT<S>::Motion& motion = entry(ws.motion, at.body);
+        const typename KernelArraysT<S>::Frame& frame = entry(ws.frame, at.body);
+        typename KernelArraysT<S>::Motion& motion = entry(ws.motion, at.body);
         motion.v = Packed3<S>::zero();
         if (link.parent >= 0) {
-            const typename WorkspaceT<S>::Motion& parent = entry(ws.motion, link.parent);
+            const typename KernelArraysT<S>::Motion& parent = entry(ws.motion, link.parent);
             motion.v = parent.v + cross(parent.w, frame.o - entry(ws.frame, link.parent).o);
         }
         if (!link.revolute) motion.v += qd(at.body) * frame.E[2];
         if (at.own < 0) continue;
         const Vec6T<S> f = added_mass_force<S>(own_added_mass(kin, entry(kin.model().added_masses(), at.own)), motion);
-        typename WorkspaceT<S>::Load& load = entry(ws.load, at.body);
+        typename KernelArraysT<S>::Load& load = entry(ws.load, at.body);
         load.N += Packed3<S>::of(f(0), f(1), f(2));
         load.F += Packed3<S>::of(f(3), f(4), f(5));
     }
 }
 
-CARDAN_VECTORISED void run_forward(std::ptrdiff_t n, const Model::Link* links, const Workspace::Frame* frame,
-                                   const double* qd, const double* qdd, Workspace::Motion* motion,
-                                   Workspace::Load* load) {
+CARDAN_VECTORISED void run_forward(std::ptrdiff_t n, const Model::Link* links, const KernelArrays::Frame* frame,
+                                   const double* qd, const double* qdd, KernelArrays::Motion* motion,
+                                   KernelArrays::Load* load) {
     forward_sweep<double>(n, links, frame, qd, qdd, motion, load);
 }
-CARDAN_VECTORISED void run_backward(std::ptrdiff_t n, const Model::Link* links, const Workspace::Frame* frame,
-                                    Workspace::Load* load, double* tau) {
+CARDAN_VECTORISED void run_backward(std::ptrdiff_t n, const Model::Link* links, const KernelArrays::Frame* frame,
+                                    KernelArrays::Load* load, double* tau) {
     backward_sweep<double>(n, links, frame, load, tau);
 }
 
-void run_forward(std::ptrdiff_t n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame, const Complex* qd,
-                 const Complex* qdd, WorkspaceT<Complex>::Motion* motion, WorkspaceT<Complex>::Load* load) {
+void run_forward(std::ptrdiff_t n, const Model::Link* links, const KernelArraysT<Complex>::Frame* frame,
+                 const Complex* qd, const Complex* qdd, KernelArraysT<Complex>::Motion* motion,
+                 KernelArraysT<Complex>::Load* load) {
     forward_sweep<Complex>(n, links, frame, qd, qdd, motion, load);
 }
-void run_backward(std::ptrdiff_t n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame,
-                  WorkspaceT<Complex>::Load* load, Complex* tau) {
+void run_backward(std::ptrdiff_t n, const Model::Link* links, const KernelArraysT<Complex>::Frame* frame,
+                  KernelArraysT<Complex>::Load* load, Complex* tau) {
     backward_sweep<Complex>(n, links, frame, load, tau);
 }
 
@@ -114,7 +115,7 @@ void run_backward(std::ptrdiff_t n, const Model::Link* links, const WorkspaceT<C
 
 template <class S>
 void inverse_dynamics(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> qdd, VectorOutT<S> tau) {
-    WorkspaceT<S>& ws = kin.workspace();
+    KernelArraysT<S>& ws = kin.arrays();
     const Model& model = kin.model();
     require_size("inverse dynamics", "qd", qd, model.size());
     require_size("inverse dynamics", "qdd", qdd, model.size());
@@ -132,7 +133,7 @@ void inverse_dynamics(const KinematicsT<S>& kin, VectorInT<S> qd, VectorInT<S> q
 
 template <class S>
 void inertial_forces(const KinematicsT<S>& kin, VectorInT<S> qd, VectorOutT<S> h) {
-    inverse_dynamics<S>(kin, qd, kin.workspace().zero, h);
+    inverse_dynamics<S>(kin, qd, kin.arrays().zero, h);
 }
 
 #define CARDAN_INSTANTIATE(S)                                                                            \

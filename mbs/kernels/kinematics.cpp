@@ -2,20 +2,49 @@
 
 #include "mbs/base/elementary.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cardan {
 
 template <class S>
-WorkspaceT<S>::WorkspaceT(const Model& model) : model_serial(model.serial()) {
+WorkspaceT<S>::WorkspaceT(const Model& model) : model_serial_(model.serial()) {
     with_memory([&] { return text("the workspace of a model of ", model.size(), " bodies"); },
-                [&] { allocate(model); });
+                [&] { arrays_ = std::make_unique<KernelArraysT<S>>(model); });
 }
 
 template <class S>
-void WorkspaceT<S>::allocate(const Model& model) {
+WorkspaceT<S>::WorkspaceT(const WorkspaceT& other)
+    : arrays_(other.arrays_ ? std::make_unique<KernelArraysT<S>>(*other.arrays_) : nullptr),
+      model_serial_(other.model_serial_),
+      generation_(other.generation_) {}
+
+template <class S>
+WorkspaceT<S>::WorkspaceT(WorkspaceT&& other) noexcept
+    : arrays_(std::move(other.arrays_)),
+      model_serial_(std::exchange(other.model_serial_, 0)),
+      generation_(other.generation_) {}
+
+template <class S>
+WorkspaceT<S>& WorkspaceT<S>::operator=(const WorkspaceT& other) {
+    return *this = WorkspaceT(other);
+}
+
+template <class S>
+WorkspaceT<S>& WorkspaceT<S>::operator=(WorkspaceT&& other) noexcept {
+    arrays_ = std::move(other.arrays_);
+    model_serial_ = std::exchange(other.model_serial_, 0);
+    generation_ = other.generation_;
+    return *this;
+}
+
+template <class S>
+WorkspaceT<S>::~WorkspaceT() = default;
+
+template <class S>
+KernelArraysT<S>::KernelArraysT(const Model& model) {
     const std::size_t n = static_cast<std::size_t>(model.size());
     frame.resize(n);
     J.resize(n);
@@ -35,7 +64,7 @@ void WorkspaceT<S>::allocate(const Model& model) {
 }
 
 template <class S>
-void WorkspaceT<S>::find_entraining(const Model& model) {
+void KernelArraysT<S>::find_entraining(const Model& model) {
     std::vector<int> place(frame.size(), -1);
     int own = 0;
     for (int k = 0; k < model.size(); ++k) {
@@ -51,13 +80,13 @@ namespace {
 
 template <class S>
 CARDAN_INLINE void frames(std::ptrdiff_t n, const Model::Link* links, const S* q, const S* sine, const S* cosine,
-                          typename WorkspaceT<S>::Frame* frame) {
+                          typename KernelArraysT<S>::Frame* frame) {
     for (std::ptrdiff_t k = 0; k < n; ++k) {
         const Model::Link& link = links[k];
         Packed33<S> R = packed<S>(link.R);
         Packed3<S> o = packed<S>(link.p);
         if (link.parent >= 0) {
-            const typename WorkspaceT<S>::Frame& parent = frame[link.parent];
+            const typename KernelArraysT<S>::Frame& parent = frame[link.parent];
             R = parent.E * R;
             o = link.coincident ? parent.o : parent.o + parent.E * o;
         }
@@ -73,12 +102,12 @@ CARDAN_INLINE void frames(std::ptrdiff_t n, const Model::Link* links, const S* q
 }
 
 CARDAN_VECTORISED void run(std::ptrdiff_t n, const Model::Link* links, const double* q, const double* sine,
-                           const double* cosine, Workspace::Frame* frame) {
+                           const double* cosine, KernelArrays::Frame* frame) {
     frames<double>(n, links, q, sine, cosine, frame);
 }
 
 void run(std::ptrdiff_t n, const Model::Link* links, const Complex* q, const Complex* sine, const Complex* cosine,
-         WorkspaceT<Complex>::Frame* frame) {
+         KernelArraysT<Complex>::Frame* frame) {
     frames<Complex>(n, links, q, sine, cosine, frame);
 }
 
@@ -87,12 +116,12 @@ void run(std::ptrdiff_t n, const Model::Link* links, const Complex* q, const Com
 template <class S>
 KinematicsT<S> kinematics(const Model& model, VectorInT<S> q, WorkspaceT<S>& workspace) {
     require_size("kinematics", "q", q, model.size());
-    require_model("kinematics", "workspace", workspace.model_serial, model.serial());
-    ++workspace.generation;
-    sines(q, workspace.sine, workspace.cosine);
-    run(model.size(), model.links().data(), q.data(), workspace.sine.data(), workspace.cosine.data(),
-        workspace.frame.data());
-    return KinematicsT<S>(model, workspace);
+    require_model("kinematics", "workspace", workspace.model_serial(), model.serial());
+    ++workspace.generation_;
+    KernelArraysT<S>& arrays = *workspace.arrays_;
+    sines(q, arrays.sine, arrays.cosine);
+    run(model.size(), model.links().data(), q.data(), arrays.sine.data(), arrays.cosine.data(), arrays.frame.data());
+    return KinematicsT<S>(model, workspace, numbers(arrays.frame.front().E.column));
 }
 
 template <class S>

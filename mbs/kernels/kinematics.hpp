@@ -16,31 +16,55 @@ class KinematicsT {
 public:
     const Model& model() const { return *model_; }
     WorkspaceT<S>& workspace() const {
-        assert(generation_ == workspace_->generation && "stale kinematics: the workspace was used for another q");
+        assert_fresh();
         return *workspace_;
     }
-    /// Rotation of body k -> base.
-    Mat3T<S> rotation(int k) const { return frame(k).E.matrix(); }
+    /// Rotation of body k -> base.  @throws InputError for a body index out of range, as do the other accessors
+    Mat3T<S> rotation(int k) const {
+        return Eigen::Map<const Mat3T<S>, Eigen::Unaligned, Eigen::OuterStride<4>>(frame(k));
+    }
     /// Origin of the joint frame of body k, m; the joint axis; the centre of mass, m. Base axes.
-    Vec3T<S> origin(int k) const { return frame(k).o.vector(); }
-    Vec3T<S> axis(int k) const { return frame(k).E[2].vector(); }
-    Vec3T<S> centre_of_mass(int k) const { return frame(k).r.vector(); }
+    Vec3T<S> origin(int k) const { return vector(k, 3); }
+    Vec3T<S> axis(int k) const { return vector(k, 2); }
+    Vec3T<S> centre_of_mass(int k) const { return vector(k, 4); }
 
-    /// All of these of one body, for kernels.  @throws InputError for a body index out of range, as do the other
-    /// accessors
-    const typename WorkspaceT<S>::Frame& frame(int k) const {
-        require_index("kinematics", "body", k, std::ssize(workspace_->frame));
-        return entry(workspace().frame, k);
+    /// The sources of the library compute with these arrays; the type is complete there only.
+    KernelArraysT<S>& arrays() const {
+        assert_fresh();
+        return *arrays_;
     }
 
 private:
-    KinematicsT(const Model& model, WorkspaceT<S>& workspace)
-        : model_(&model), workspace_(&workspace), generation_(workspace.generation) {}
+    friend struct KernelArraysT<S>;
+    /// A body has five vectors of four numbers each, of which the last has no meaning: the columns of its rotation, its
+    /// origin and its centre of mass.
+    static constexpr int numbers_of_frame = 20;
+
+    KinematicsT(const Model& model, WorkspaceT<S>& workspace, const S* frames)
+        : model_(&model),
+          workspace_(&workspace),
+          arrays_(workspace.arrays_.get()),
+          frames_(frames),
+          generation_(workspace.generation()) {}
+    void assert_fresh() const {
+        assert(generation_ == workspace_->generation() && "stale kinematics: the workspace was used for another q");
+    }
+    const S* frame(int k) const {
+        require_index("kinematics", "body", k, model_->size());
+        assert_fresh();
+        return frames_ + std::ptrdiff_t{numbers_of_frame} * k;
+    }
+    Vec3T<S> vector(int k, int i) const {
+        const S* x = frame(k) + 4 * i;
+        return {x[0], x[1], x[2]};
+    }
     template <class T>
     friend KinematicsT<T> kinematics(const Model& model, VectorInT<T> q, WorkspaceT<T>& workspace);
 
     const Model* model_;
     WorkspaceT<S>* workspace_;
+    KernelArraysT<S>* arrays_;
+    const S* frames_;
     std::uint64_t generation_;
 };
 
@@ -75,9 +99,8 @@ struct PointTwist {
 };
 template <class S>
 PointTwist<S> twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
-    const typename WorkspaceT<S>::Frame& frame = kin.frame(a);
-    const Vec3T<S> e = frame.E[2].vector();
-    if (entry(kin.model().links(), a).revolute) return {e, cross<S>(e, C - frame.o.vector())};
+    const Vec3T<S> e = kin.axis(a);
+    if (entry(kin.model().bodies(), a).revolute) return {e, cross<S>(e, C - kin.origin(a))};
     return {Vec3T<S>::Zero(), e};
 }
 

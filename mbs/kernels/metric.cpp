@@ -1,7 +1,7 @@
 #include "mbs/kernels/metric.hpp"
 
 #include "mbs/kernels/detail/added_mass.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 namespace cardan {
 
@@ -19,8 +19,8 @@ namespace {
 // m.
 template <class S>
 CARDAN_INLINE void branch_row(const PathTwists<S>& path, const Model::Link& link,
-                              const typename WorkspaceT<S>::Frame& frame, const typename WorkspaceT<S>::Inertia& body,
-                              Packed3<S>* row) {
+                              const typename KernelArraysT<S>::Frame& frame,
+                              const typename KernelArraysT<S>::Inertia& body, Packed3<S>* row) {
     using Columns = Packed3<S>;
     const Packed3<S>& e = frame.E[2];
     const Packed3<S> p = body.M * (link.revolute ? cross(e, body.C - frame.o) : e);
@@ -39,8 +39,9 @@ CARDAN_INLINE void branch_row(const PathTwists<S>& path, const Model::Link& link
 }
 
 template <class S, class Sink>
-CARDAN_INLINE void fill(int n, const Model::Link* links, const typename WorkspaceT<S>::Frame* frame,
-                        const typename WorkspaceT<S>::Inertia* composite, const PathTwists<S>& path, const Sink& sink) {
+CARDAN_INLINE void fill(int n, const Model::Link* links, const typename KernelArraysT<S>::Frame* frame,
+                        const typename KernelArraysT<S>::Inertia* composite, const PathTwists<S>& path,
+                        const Sink& sink) {
     for (int first = 0; first < n;) {
         const int end = set_run(path, links, frame, first, n);
         for (int m = first; m < end; ++m) {
@@ -56,9 +57,9 @@ CARDAN_INLINE void fill(int n, const Model::Link* links, const typename Workspac
 // Calls add(a, b, value) for what added mass adds to g_ab.
 template <class S, class Add>
 void add_added_mass(const KinematicsT<S>& kin, const Add& add) {
-    for (const auto& at : kin.workspace().entraining) {
+    for (const auto& at : kin.arrays().entraining) {
         const int m = at.body;
-        const Vec3T<S> o = entry(kin.workspace().frame, m).o.vector();
+        const Vec3T<S> o = entry(kin.arrays().frame, m).o.vector();
         const Vec6T<S> momentum = at.I * twist_column(kin, m, o);
         add(m, m, work<S>(twist_column(kin, m, o), momentum));
         for (int a = own_parent(kin.model(), m); a >= 0; a = own_parent(kin.model(), a)) {
@@ -69,17 +70,19 @@ void add_added_mass(const KinematicsT<S>& kin, const Add& add) {
     }
 }
 
-CARDAN_VECTORISED void run(int n, const Model::Link* links, const Workspace::Frame* frame,
-                           const Workspace::Inertia* composite, const PathTwists<double>& path,
+CARDAN_VECTORISED void run(int n, const Model::Link* links, const KernelArrays::Frame* frame,
+                           const KernelArrays::Inertia* composite, const PathTwists<double>& path,
                            const DenseSink<double>& g) {
     fill<double>(n, links, frame, composite, path, g);
 }
-CARDAN_VECTORISED void run(int n, const Model::Link* links, const Workspace::Frame* frame,
-                           const Workspace::Inertia* composite, const PathTwists<double>& path, const BranchSink& g) {
+CARDAN_VECTORISED void run(int n, const Model::Link* links, const KernelArrays::Frame* frame,
+                           const KernelArrays::Inertia* composite, const PathTwists<double>& path,
+                           const BranchSink& g) {
     fill<double>(n, links, frame, composite, path, g);
 }
-void run(int n, const Model::Link* links, const WorkspaceT<Complex>::Frame* frame,
-         const WorkspaceT<Complex>::Inertia* composite, const PathTwists<Complex>& path, const DenseSink<Complex>& g) {
+void run(int n, const Model::Link* links, const KernelArraysT<Complex>::Frame* frame,
+         const KernelArraysT<Complex>::Inertia* composite, const PathTwists<Complex>& path,
+         const DenseSink<Complex>& g) {
     fill<Complex>(n, links, frame, composite, path, g);
 }
 
@@ -90,7 +93,7 @@ void metric(const KinematicsT<S>& kin, MatrixOutT<S> g) {
     const Model& model = kin.model();
     require_size("metric", "g", g, model.size(), model.size());
     composites(kin);
-    WorkspaceT<S>& ws = kin.workspace();
+    KernelArraysT<S>& ws = kin.arrays();
     const PathTwists<S> path(ws.branch.data(), ws.stride);
     run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(), path,
         DenseSink<S>{model.links().data(), model.size(), g.data(), g.outerStride(), path.row(0), path.row(0)});
@@ -102,9 +105,9 @@ void metric(const Kinematics& kin, BranchMatrix& g) {
     const Model& model = kin.model();
     require_model("metric", "branch matrix", g.model().serial(), model.serial());
     composites(kin);
-    Workspace& ws = kin.workspace();
+    KernelArrays& ws = kin.arrays();
     run(model.size(), model.links().data(), ws.frame.data(), ws.composite.data(),
-        PathTwists<double>(ws.branch.data(), ws.stride), BranchSink{g.rows(), g.columns(), g.offset()});
+        PathTwists<double>(ws.branch.data(), ws.stride), BranchSink(g));
     add_added_mass(kin, [&](int a, int b, double value) { g.add(a, b, value); });
     for (const Model::Spin& armature : model.armatures())
         for (const auto& [a, sa] : armature.spin)
@@ -126,15 +129,15 @@ std::optional<SingularPivot> singular_pivot(const Matrix& g, const Vector& scale
 }
 
 double kinetic_energy(const Kinematics& kin, VectorIn qd) {
-    Workspace& ws = kin.workspace();
+    KernelArrays& ws = kin.arrays();
     const Model& model = kin.model();
     require_size("kinetic energy", "qd", qd, model.size());
     double twice = 0;
     for (int k = 0; k < model.size(); ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
         const Model::Link& link = model.links()[i];
-        const Workspace::Frame& frame = ws.frame[i];
-        Workspace::Motion& motion = ws.motion[i];
+        const KernelArrays::Frame& frame = ws.frame[i];
+        KernelArrays::Motion& motion = ws.motion[i];
         motion.w = motion.v = Packed3<double>::zero();
         if (link.parent >= 0) {
             const std::size_t p = static_cast<std::size_t>(link.parent);

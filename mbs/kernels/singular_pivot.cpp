@@ -3,7 +3,8 @@
 #include "mbs/base/decompositions.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/kernels/dynamics.hpp"
+#include "mbs/kernels/detail/articulated.hpp"
+#include "mbs/kernels/registers/kernel_arrays.hpp"
 #include "mbs/model/spatial.hpp"
 
 namespace cardan {
@@ -13,14 +14,14 @@ namespace {
 constexpr double least_pivot = 1e-12;  // over scale
 
 // Twist of the joint at its own origin, [angular; linear].
-Vec6 joint_axis(const Model::Link& link, const Workspace::Frame& frame) {
+Vec6 joint_axis(const Model::Link& link, const KernelArrays::Frame& frame) {
     Vec6 S = Vec6::Zero();
     (link.revolute ? S.head<3>() : S.tail<3>()) = frame.E[2].vector();
     return S;
 }
 
 // Largest inertia of a body in any direction, about its joint origin.
-Mat6 worst_inertia(const Model::Link& link, const Workspace::Frame& frame) {
+Mat6 worst_inertia(const Model::Link& link, const KernelArrays::Frame& frame) {
     const Vec3 c = (frame.r - frame.o).vector();
     Vec6 diagonal;
     diagonal.head<3>().setConstant(link.J.matrix().trace() + link.mass * c.squaredNorm());
@@ -48,7 +49,7 @@ std::optional<SingularPivot> ForwardDynamics::singular_pivot(const Kinematics& k
     for (const Model::AddedMass& water : model_->added_masses()) entry(bound, water.body) = worst_inertia(water);
     for (std::size_t k = bound.size(); k-- > 0;) {
         const Model::Link& link = model_->links()[k];
-        const Workspace::Frame& frame = kin.workspace().frame[k];
+        const KernelArrays::Frame& frame = kin.arrays().frame[k];
         Mat6 B = bound[k] + worst_inertia(link, frame);
         if (driven_[k] == 0) {
             const Vec6 S = joint_axis(link, frame);
@@ -63,7 +64,7 @@ std::optional<SingularPivot> ForwardDynamics::singular_pivot(const Kinematics& k
             B = (P.transpose() * B * P + U * U.transpose() / D).eval();
         }
         if (link.parent < 0) continue;
-        const Mat6 X = twist_shift<double>((frame.o - entry(kin.workspace().frame, link.parent).o).vector());
+        const Mat6 X = twist_shift<double>((frame.o - entry(kin.arrays().frame, link.parent).o).vector());
         entry(bound, link.parent) += X.transpose() * B * X;
     }
     return singular_pivot_of_support();
@@ -77,13 +78,13 @@ int ForwardDynamics::most_distal(const Kinematics& kin, int at, double scale) co
     for (int k = at; k < model_->body(at).subtree_end; ++k) {
         const std::size_t i = static_cast<std::size_t>(k);
         const Model::Link& link = model_->links()[i];
-        const Workspace::Frame& frame = kin.workspace().frame[i];
+        const KernelArrays::Frame& frame = kin.arrays().frame[i];
         Vec6& own = entry(twist, k - at);
         if (k == at) {
             own = joint_axis(link, frame);
             continue;
         }
-        const Vec3 arm = (frame.o - entry(kin.workspace().frame, link.parent).o).vector();
+        const Vec3 arm = (frame.o - entry(kin.arrays().frame, link.parent).o).vector();
         own = twist_shift<double>(arm) * entry(twist, link.parent - at);
         if (driven_[i] != 0) continue;
         Vec6 U;
@@ -112,7 +113,7 @@ std::optional<SingularPivot> ForwardDynamics::singular_pivot_of_support() const 
 void Model::check_metric() const {
     Workspace workspace(*this);
     ForwardDynamics dynamics(*this);
-    const auto pivot = dynamics.singular_pivot(kinematics(*this, workspace.zero, workspace));
+    const auto pivot = dynamics.singular_pivot(kinematics(*this, Vector::Zero(size()), workspace));
     if (!pivot) return;
     const int at = pivot->index;
     const bool negative = pivot->value < -1e-12 * pivot->scale;

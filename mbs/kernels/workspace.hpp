@@ -2,86 +2,44 @@
 /// The memory of the kernels: allocated once per model and thread.
 #pragma once
 
-#include "mbs/model/link.hpp"
+#include "mbs/model/model.hpp"
 
 #include <cstdint>
+#include <memory>
 
 namespace cardan {
 
-/// Arrays over bodies, all in base axes. Kernels overwrite each other's scratch; what the kinematics() stage wrote
-/// stays valid until it is called again.
+template <class S>
+struct KernelArraysT;
+template <class S>
+class KinematicsT;
+
+/// Arrays over bodies that the kernels read and write. They overwrite each other's scratch; what the kinematics() stage
+/// wrote stays valid until it is called again: KinematicsT gives poses and axes of the bodies. A copy has arrays of its
+/// own.
 template <class S>
 class WorkspaceT {
 public:
     /// @throws MemoryError
     explicit WorkspaceT(const Model& model);
+    WorkspaceT(const WorkspaceT& other);
+    WorkspaceT(WorkspaceT&& other) noexcept;
+    WorkspaceT& operator=(const WorkspaceT& other);
+    WorkspaceT& operator=(WorkspaceT&& other) noexcept;
+    ~WorkspaceT();
 
-    struct Frame {
-        Packed33<S> E;  ///< rotation body -> base; its third column is the joint axis
-        Packed3<S> o;   ///< origin of the joint frame, m
-        Packed3<S> r;   ///< centre of mass, m
-    };
-    /// A rigid body, or a subtree as one: mass, centre, inertia or Binet tensor about the centre.
-    struct Inertia {
-        S M;
-        Packed3<S> C;
-        Packed33<S> P;
-    };
-    struct Motion {
-        Packed3<S> w, al;  ///< angular velocity and acceleration
-        Packed3<S> v, a;   ///< velocity and acceleration of the joint origin
-    };
-    struct Load {
-        Packed3<S> F, N;  ///< force, and moment about the joint origin
-    };
-
-    struct Momentum {
-        Packed3<S> p;   ///< sum of m x_dot
-        Packed33<S> G;  ///< sum of m (x - o) x_dot^T about the joint origin
-    };
-
-    /// Psi' and Psi'' of a coordinate (see derivatives.cpp).
-    struct Rates {
-        Packed3<S> psi1_w, psi1_u, psi2_w, psi2_u;
-    };
-
-    /// A body whose subtree has added mass.
-    struct Entraining {
-        int body;
-        int parent;                     ///< its place among them, -1: base
-        int own;                        ///< index in Model::added_masses(), -1: only bodies that it carries have some
-        Mat6T<S> I = Mat6T<S>::Zero();  ///< of the subtree about the joint origin
-        Mat6T<S> B = Mat6T<S>::Zero();  ///< likewise coriolis_inertia(); scratch
-        Vec6T<S> f = Vec6T<S>::Zero();  ///< and force; scratch
-    };
-
-    /// Model::serial() of the model it was made for.
-    std::uint64_t model_serial;
-
-    // Written by kinematics().
-    std::uint64_t generation = 0;
-    std::vector<Frame> frame;
-    VectorT<S> sine, cosine;
-
-    std::uint64_t inertia_generation = 0, centre_generation = 0, composite_generation = 0;
-    std::vector<Packed33<S>> J;          ///< inertia tensors about the centres of mass
-    std::vector<Inertia> composite;      ///< subtrees, Binet tensors
-    std::vector<Entraining> entraining;  ///< in the order of the model; none without added mass
-
-    // Scratch of the recursions.
-    std::vector<Motion> motion;
-    std::vector<Load> load;
-    std::vector<Momentum> momentum;
-    std::vector<Rates> rates;
-    /// Along one path from the base, structure of arrays: rows of `stride` times four numbers (see
-    /// mbs/kernels/path_twists.hpp).
-    std::ptrdiff_t stride = 0;
-    std::vector<Packed3<S>> branch;
-    VectorT<S> zero;
+    /// Model::serial() of the model it was made for; 0 after it was moved from.
+    std::uint64_t model_serial() const { return model_serial_; }
+    /// Number of times that kinematics() has written to it.
+    std::uint64_t generation() const { return generation_; }
 
 private:
-    void allocate(const Model& model);
-    void find_entraining(const Model& model);
+    friend class KinematicsT<S>;
+    template <class T>
+    friend KinematicsT<T> kinematics(const Model& model, VectorInT<T> q, WorkspaceT<T>& workspace);
+
+    std::unique_ptr<KernelArraysT<S>> arrays_;
+    std::uint64_t model_serial_, generation_ = 0;
 };
 
 using Workspace = WorkspaceT<double>;

@@ -2,6 +2,7 @@
 
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/extent.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 #include <algorithm>
 #include <array>

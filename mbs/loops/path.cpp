@@ -1,6 +1,6 @@
 #include "mbs/loops/path.hpp"
 
-#include "mbs/model/link.hpp"
+#include "mbs/model/registers/link.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 /// and what springs between bodies resist.
 #pragma once
 
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/kinematics.hpp"
 
 #include <cstdint>
 #include <type_traits>

@@ -2,7 +2,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/model/link.hpp"
+#include "mbs/model/registers/link.hpp"
 
 #include <algorithm>
 #include <atomic>

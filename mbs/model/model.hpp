@@ -25,7 +25,7 @@ public:
         RigidInertia inertia;
         Mat3 J;  ///< inertia tensor about the centre of mass, body axes
     };
-    /// The numbers of a body that the kernels read: mbs/model/link.hpp.
+    /// The numbers of a body that the kernels read: mbs/model/registers/link.hpp.
     struct Link;
     struct Frame {
         std::string name;

@@ -1,5 +1,6 @@
 // Forces, derivatives and energy of the elements at a state.
 #include "mbs/base/borrowed.hpp"
+#include "mbs/kernels/registers/kernel_arrays.hpp"
 #include "mbs/system/bound_elements.hpp"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ private:
 
     // The wrenches of a body about its joint's origin; from the tips down, every joint takes its share and passes on.
     void add_wrenches(const Kinematics& kin, VectorOut& Q) {
-        const Workspace& ws = kin.workspace();
+        const KernelArrays& ws = kin.arrays();
         std::vector<Wrench>& bodies = memory_->bodies;
         bodies.assign(static_cast<std::size_t>(nq_), {});
         for (std::size_t i = 0; i < memory_->wrenches.size(); ++i) {
@@ -95,7 +96,7 @@ private:
         }
         for (Eigen::Index k = nq_ - 1; k >= 0; --k) {
             const Wrench& sum = entry(bodies, k);
-            const Workspace::Frame& frame = entry(ws.frame, k);
+            const KernelArrays::Frame& frame = entry(ws.frame, k);
             const Model::Link& link = entry(kin.model().links(), k);
             Q(k) += frame.E[2].vector().dot(link.revolute ? sum.moment : sum.force);
             if (link.parent >= 0)

@@ -1,6 +1,6 @@
 // Stiffness and damping of the forces.
 #include "mbs/base/entry.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 #include "mbs/system/forces.hpp"
 
 namespace cardan {
@@ -9,7 +9,7 @@ namespace cardan {
 void Forces::gravity_stiffness(const Kinematics& kin, Matrix& K) const {
     composites(kin);
     for (int a = 0; a < kin.model().size(); ++a) {
-        const Workspace::Inertia& subtree = entry(kin.workspace().composite, a);
+        const KernelArrays::Inertia& subtree = entry(kin.arrays().composite, a);
         const Vec3 C = subtree.C.vector(), lift = own_twist_at(kin, a, C).v;
         for (int b = a; b >= 0; b = own_parent(kin.model(), b)) {
             const Vec3 w = own_twist_at(kin, b, C).w;

@@ -2,8 +2,8 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/base/vector_loops.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/base/registers/vector_loops.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 namespace cardan {
 
@@ -74,7 +74,7 @@ void Forces::add_gravity(const KinematicsT<S>& kin, VectorOutT<S> Q) const {
     subtree_centres(kin);
     const Vec3T<S> g = gravity_.template cast<S>();
     for (int a = 0; a < kin.model().size(); ++a) {
-        const auto& subtree = entry(kin.workspace().composite, a);
+        const auto& subtree = entry(kin.arrays().composite, a);
         Q(a) += subtree.M * dot<S>(g, own_twist_at(kin, a, subtree.C.vector()).v);
     }
 }

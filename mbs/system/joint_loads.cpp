@@ -1,5 +1,6 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/kernels/registers/kernel_arrays.hpp"
 #include "mbs/system/dynamic_view.hpp"
 
 #include <utility>
@@ -10,13 +11,13 @@ JointLoads joint_loads(const StateView& at, const Forces& forces, VectorIn qdd, 
     const Kinematics& kin = at.kinematics;
     const Model& model = kin.model();
     require_model("joint loads", "set of forces", forces.model_serial(), model.serial());
-    const Workspace& ws = kin.workspace();
+    const KernelArrays& ws = kin.arrays();
     Vector tau(model.size());
     inverse_dynamics<double>(kin, at.qd, qdd, tau);
     JointLoads t;
     t.time = at.time;
     for (int k = 0; k < model.size(); ++k) {
-        const Workspace::Motion& motion = entry(ws.motion, k);
+        const KernelArrays::Motion& motion = entry(ws.motion, k);
         const auto& load = entry(ws.load, k);
         t.motion.push_back({kin.origin(k), motion.a.vector(), motion.w.vector(), motion.al.vector()});
         t.joint.push_back({load.F.vector(), load.N.vector()});

@@ -1,7 +1,7 @@
 #include "solvers/algebra/schur.hpp"
 
 #include "mbs/base/entry.hpp"
-#include "mbs/base/vectorised.hpp"
+#include "mbs/base/registers/vectorised.hpp"
 #include "solvers/algebra/dense.hpp"
 
 #include <Eigen/Jacobi>

@@ -4,6 +4,7 @@
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/kernels/extent.hpp"
+#include "mbs/kernels/registers/kernel_arrays.hpp"
 #include "solvers/linear/linearise.hpp"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ Matrix term_sizes(const System& system, const Vector& q, bool gravity) {
     if (!gravity || !system.forces.has_gravity()) return sizes;
     composites(kin);
     for (int a = 0; a < model.size(); ++a) {
-        const auto& subtree = entry(workspace.composite, a);
+        const auto& subtree = entry(kin.arrays().composite, a);
         const Vec3 C = subtree.C.vector();
         const double size = subtree.M * system.forces.gravity().norm() * (twist_at(kin, a, C).v.norm() + C.norm());
         for (int b = a; b >= 0; b = model.body(b).parent) sizes(a, b) = sizes(b, a) = sizes(b, a) + size;

@@ -2,7 +2,7 @@
 
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
-#include "mbs/base/vectorised.hpp"
+#include "mbs/base/registers/vectorised.hpp"
 #include "solvers/linear/coordinate_rows.hpp"
 
 #include <algorithm>

@@ -96,7 +96,7 @@ public:
 
     // The method: detail/air_derivatives.cpp.
     void add_derivatives(const std::vector<AirPoint>& points, const MatrixOut& by_q, const MatrixOut& by_qd) {
-        scratch_.movers.resize(motion_.model().links().size());
+        scratch_.movers.resize(static_cast<std::size_t>(motion_.model().size()));
         for (const int a : path_) entry(scratch_.movers, a) = motion_.mover(a);
         for (Columns6* sum : {&scratch_.sum_q, &scratch_.sum_qd}) sum->setZero(6, by_q.rows());
         Vec6 wrench = Vec6::Zero();

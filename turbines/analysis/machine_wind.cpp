@@ -35,8 +35,8 @@ Wind inflow_of_file(const std::filesystem::path& path, const WindSite& site, con
     }
     WindBoxFile read = read_wind_box(path);
     report_notes(report, path, std::move(read.notes));
-    read.profile.density = site.profile.density;
-    return Wind(read.box, read.profile).turned(read.direction, read.upflow);
+    read.mean.density = site.profile.density;
+    return Wind(read.box, read.mean).turned(read.direction, read.upflow);
 }
 
 Wind wind_of_file(const std::filesystem::path& path, const WindSite& site, const Report& report) {

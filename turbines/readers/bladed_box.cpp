@@ -189,7 +189,7 @@ WindBoxFile read_bladed_box(const std::filesystem::path& path, TowerFile tower) 
     box.origin = sources.origin("Bladed .wnd with .sum");
     box.memory = sources.memory();
     out.box = std::make_shared<const WindBox>(std::move(box));
-    out.profile.reference_height = summary.hub_height;
+    out.mean.reference_height = summary.hub_height;
     return out;
 }
 

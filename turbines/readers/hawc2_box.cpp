@@ -22,8 +22,8 @@ void require_counts(const Hawc2Box& given) {
 }
 
 void require_scaling(const Hawc2Box& given) {
-    given.profile.check();
-    require_positive(hawc2_box, "mean wind speed [m/s]", given.profile.speed);
+    given.mean.check();
+    require_positive(hawc2_box, "mean wind speed [m/s]", given.mean.speed);
     if (!std::isfinite(given.start)) throw InputError(hawc2_box, "place of the first plane [m]", given.start, "finite");
     for (const double factor : given.factors)
         if (!(std::abs(factor) <= 1e6)) throw InputError(hawc2_box, "factor", factor, "-1e6 ... 1e6");
@@ -99,7 +99,7 @@ std::vector<double> means_of(const WindBoxData& box) {
 WindBoxFile read_hawc2_box(const Hawc2Box& given) {
     require_counts(given);
     require_scaling(given);
-    const double speed = given.profile.speed;
+    const double speed = given.mean.speed;
     WindBoxData box;
     box.grid = {.steps = given.planes,
                 .rows = given.rows,
@@ -107,7 +107,7 @@ WindBoxFile read_hawc2_box(const Hawc2Box& given) {
                 .time_step = given.plane_spacing / speed,
                 .row_spacing = given.row_spacing,
                 .column_spacing = given.column_spacing};
-    box.grid.lowest = given.profile.reference_height - box.grid.height() / 2;
+    box.grid.lowest = given.mean.reference_height - box.grid.height() / 2;
     const std::size_t bytes =
         saturated_product({static_cast<std::size_t>(given.planes), static_cast<std::size_t>(given.columns),
                            static_cast<std::size_t>(given.rows), sizeof(float)});
@@ -129,7 +129,7 @@ WindBoxFile read_hawc2_box(const Hawc2Box& given) {
     box.memory = sources.memory();
     WindBoxFile out;
     out.box = std::make_shared<const WindBox>(std::move(box));
-    out.profile = given.profile;
+    out.mean = given.mean;
     return out;
 }
 

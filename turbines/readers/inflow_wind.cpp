@@ -143,8 +143,8 @@ InflowWindFile read_inflow_wind(const std::filesystem::path& path, double densit
         out.wind = wind_over_time(file, density);
     } else {
         WindBoxFile box = inflow_wind_box(file, type, order);
-        box.profile.density = density;
-        out.wind = file.checked("WindType", [&] { return Wind(box.box, box.profile); });
+        box.mean.density = density;
+        out.wind = file.checked("WindType", [&] { return Wind(box.box, box.mean); });
         if (type == InflowWindType::native_bladed) {
             direction = box.direction;
             upflow = box.upflow;

@@ -144,7 +144,7 @@ WindBoxFile read_native_bladed_box(const std::filesystem::path& path) {
     const std::string all = text_file(path);
     NativeWords in(all, path.string());
     WindBoxFile out;
-    out.profile = native_profile(in);
+    out.mean = native_profile(in);
     out.direction = -in.number("WDIR", -2 * pi, 2 * pi);
     out.upflow = in.number("FLINC", -pi / 2, pi / 2);
 
@@ -155,10 +155,10 @@ WindBoxFile read_native_bladed_box(const std::filesystem::path& path) {
     sources.name(path);
     sources.sum(std::as_bytes(std::span(all)));
 
-    WindBoxData box = bladed_numbers(file, header, out.profile.speed, false);
-    box.grid.lowest = out.profile.reference_height - box.grid.height() / 2;
+    WindBoxData box = bladed_numbers(file, header, out.mean.speed, false);
+    box.grid.lowest = out.mean.reference_height - box.grid.height() / 2;
     box.components[1].scale *= -1;
-    scale_to(box, in, out.profile.speed);
+    scale_to(box, in, out.mean.speed);
     box.periodic = true;
     box.start = in.number_or_zero("XOffset", -1e9, 1e9);
     box.below = BelowBox::to_ground;

@@ -109,7 +109,7 @@ WindBoxFile read_turbsim_box(const std::filesystem::path& path) {
 
     WindBoxFile out;
     out.box = std::make_shared<const WindBox>(std::move(box));
-    out.profile.reference_height = header.reference_height;
+    out.mean.reference_height = header.reference_height;
     return out;
 }
 

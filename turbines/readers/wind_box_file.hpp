@@ -17,14 +17,15 @@ struct WindBoxFile {
     std::shared_ptr<const WindBox> box;
     /// Mean wind to be added to the box; its speed is 0 where the box holds the mean wind. Its reference height is that
     /// of the files, about which the wind is turned (Wind::turned()).
-    SteadyWind profile = {};
+    SteadyWind mean = {};
     double direction = 0;  ///< by which the files turn all of it, to the left, rad
     double upflow = 0;     ///< likewise, upward, rad
     std::vector<FileNote> notes = {};
 };
 
-/// Which plane of a box meets the machine first. The planes of a Mann box count downwind, so that the last one leads;
-/// InflowWind begins with the first. Spectra and coherence are the same, the sign of the phase over the height is not.
+/// Orders in which the planes of a box meet the machine. The planes of a Mann box count downwind, so that the last one
+/// leads; InflowWind begins with the first. Spectra and coherence are the same, the sign of the phase over the height
+/// is not.
 enum class PlaneOrder : std::uint8_t { first_plane_first, last_plane_first };
 
 /// Reads a file by what it begins with: TurbSim's .bts (read_turbsim_box()), a .wnd of Bladed's kind with its .sum

@@ -21,7 +21,7 @@ struct PlaneGrid {
     double distance(int rows_apart, int columns_apart) const;  ///< m
 };
 
-/// How numbers are made that correlate.
+/// Ways to make numbers that correlate.
 enum class PlaneMethod : std::uint8_t {
     independent,  ///< they do not
     cholesky,     ///< a triangular factor of the matrix of all pairs of points, points^3/3 operations

@@ -20,7 +20,7 @@ public:
     /// @param size  n, at least 2
     /// @param out   another place
     void forward(const Complex* in, int size, Complex* out);
-    /// The same with exp(+2 pi i j k/n).
+    /// Transforms back, with exp(+2 pi i j k/n).
     void inverse(const Complex* in, int size, Complex* out);
 
 private:

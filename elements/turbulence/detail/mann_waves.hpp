@@ -12,7 +12,7 @@
 
 namespace cardan::detail {
 
-/// What all planes have in common.
+/// The numbers that all planes have in common.
 struct MannLattice {
     explicit MannLattice(const MannOptions& options);
 
@@ -44,7 +44,7 @@ public:
     void transform(int component, std::span<float> re, std::span<float> im);
     /// Sum of A A^T over k_2 and k_3 of what was drawn.
     const Mat3& covariance() const { return covariance_; }
-    /// What was drawn: A(k) n(k) of k_2 = index2 dk_2 and k_3 = index3 dk_3.
+    /// The amplitudes that were drawn: A(k) n(k) of k_2 = index2 dk_2 and k_3 = index3 dk_3.
     const std::array<Complex, 3>& wave(int index2, int index3) const { return waves_[place(index2, index3)]; }
 
 private:

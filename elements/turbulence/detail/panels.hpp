@@ -19,14 +19,14 @@ void at_panel_nodes(double low, double high, const F& f) {
     }
 }
 
-/// The same of panels of equal width.
+/// Integrates over panels of equal width.
 template <class F>
 void at_nodes(double low, double high, int panels, const F& f) {
     const double width = (high - low) / panels;
     for (int i = 0; i < panels; ++i) at_panel_nodes(low + i * width, low + (i + 1) * width, f);
 }
 
-/// The same of panels from 0 to `high`, narrower towards 0 by a factor of 4 each, down to `narrow`.
+/// Integrates over panels from 0 to `high`, narrower towards 0 by a factor of 4 each, down to `narrow`.
 template <class F>
 void at_nodes_towards_zero(double high, double narrow, int panels, const F& f) {
     for (; high > narrow; high /= 4) at_nodes(high / 4, high, panels, f);

@@ -46,7 +46,7 @@ struct ShearedWave {
         out(1, 2) = out(2, 1) = share * (p * zeta2 - k2 * k30);
         return out;
     }
-    /// Its root over that of the same.
+    /// The root of the tensor over that of an isotropic one.
     Mat3 root() const {
         const double share = k0_square / k_square;
         Mat3 out;

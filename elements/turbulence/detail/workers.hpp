@@ -24,14 +24,14 @@ bool share_out(int count, int threads, const MakeWork& make_work, const GoOn& go
     std::atomic<bool> stop = false;
     std::mutex mutex;
     std::exception_ptr failure;
-    int told = 0;
+    int reported = 0;
     const auto run = [&](bool caller) {
         try {
             auto work = make_work();
             for (int index = next++; index < count && !stop; index = next++) {
                 work(index);
                 ++done;
-                if (caller && !go_on(told = done)) stop = true;
+                if (caller && !go_on(reported = done)) stop = true;
             }
         } catch (...) {
             const std::lock_guard lock(mutex);
@@ -50,7 +50,7 @@ bool share_out(int count, int threads, const MakeWork& make_work, const GoOn& go
     }
     if (failure) std::rethrow_exception(failure);
     if (done != count) return false;
-    if (told != count) static_cast<void>(go_on(count));
+    if (reported != count) static_cast<void>(go_on(count));
     return true;
 }
 

@@ -4,7 +4,7 @@ namespace cardan {
 
 template <class S>
 void gather_added_mass(const KinematicsT<S>& kin) {
-    WorkspaceT<S>& ws = kin.workspace();
+    KernelArraysT<S>& ws = kin.arrays();
     for (auto& at : ws.entraining) {
         at.I.setZero();
         if (at.own >= 0) at.I = own_added_mass(kin, entry(kin.model().added_masses(), at.own));

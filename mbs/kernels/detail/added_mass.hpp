@@ -3,7 +3,7 @@
 /// inertias of six rows and columns. Twists and forces are [angular; linear] in base axes.
 #pragma once
 
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 
 namespace cardan {
 
@@ -12,7 +12,7 @@ template <class S>
 Mat6T<S> own_added_mass(const KinematicsT<S>& kin, const Model::AddedMass& water) {
     Mat6T<S> turn = Mat6T<S>::Zero();
     turn.template topLeftCorner<3, 3>() = turn.template bottomRightCorner<3, 3>() =
-        entry(kin.workspace().frame, water.body).E.matrix();
+        entry(kin.arrays().frame, water.body).E.matrix();
     return turn * water.inertia.template cast<S>() * turn.transpose();
 }
 
@@ -61,17 +61,17 @@ Mat6T<S> coriolis_inertia(const Mat6T<S>& I, const Vec6T<S>& v) {
 
 /// Twist of the joint origin of a body, and its rate in the axes of the body, from what a recursion found.
 template <class S>
-Vec6T<S> twist_column(const typename WorkspaceT<S>::Motion& motion) {
+Vec6T<S> twist_column(const typename KernelArraysT<S>::Motion& motion) {
     return (Vec6T<S>() << motion.w.vector(), motion.v.vector()).finished();
 }
 template <class S>
-Vec6T<S> rate_column(const typename WorkspaceT<S>::Motion& motion) {
+Vec6T<S> rate_column(const typename KernelArraysT<S>::Motion& motion) {
     return (Vec6T<S>() << motion.al.vector(), (motion.a - cross(motion.w, motion.v)).vector()).finished();
 }
 
 /// Force of the water that a body entrains, I a + v x* I v (Kirchhoff).
 template <class S>
-Vec6T<S> added_mass_force(const Mat6T<S>& I, const typename WorkspaceT<S>::Motion& motion) {
+Vec6T<S> added_mass_force(const Mat6T<S>& I, const typename KernelArraysT<S>::Motion& motion) {
     const Vec6T<S> v = twist_column<S>(motion);
     return I * rate_column<S>(motion) + carried<S>(v, I * v);
 }

@@ -1,6 +1,6 @@
 #include "solvers/algebra/detail/block_product.hpp"
 
-#include "mbs/base/vector_loops.hpp"
+#include "mbs/base/registers/vector_loops.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "solvers/time/detail/sundials_vector.hpp"
 
-#include "mbs/base/vector_loops.hpp"
+#include "mbs/base/registers/vector_loops.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -54,14 +54,14 @@ TEST_CASE("random numbers: moments are those of complex normal numbers", "[analy
     const std::vector<Complex> z = normal_numbers(1, 0, 1, 100000);
     const double root = std::sqrt(static_cast<double>(z.size()));
     Complex mean = 0, square = 0;
-    double power = 0, fourth = 0, sixth = 0;
+    double power = 0, fourth = 0, sixth_moment = 0;
     for (const Complex value : z) {
         const double p = std::norm(value);
         mean += value;
         square += value * value;
         power += p;
         fourth += p * p;
-        sixth += p * p * p;
+        sixth_moment += p * p * p;
     }
     // |z|^2 is exponential: E p^n = n!, var p^n = (2n)! - n!^2.
     CHECK(std::abs(mean) < 3 * root);
@@ -69,7 +69,7 @@ TEST_CASE("random numbers: moments are those of complex normal numbers", "[analy
     const auto count = static_cast<double>(z.size());
     CHECK(std::abs(power / count - 1) < 3 / root);
     CHECK(std::abs(fourth / count - 2) < 3 * std::sqrt(20.0) / root);
-    CHECK(std::abs(sixth / count - 6) < 3 * std::sqrt(684.0) / root);
+    CHECK(std::abs(sixth_moment / count - 6) < 3 * std::sqrt(684.0) / root);
 }
 
 TEST_CASE("random numbers: of another seed, stream, line or index they are independent", "[property]") {

@@ -1,10 +1,15 @@
 // The vectors of the kernels against Eigen's, in both of their forms: registers of four doubles and complex numbers.
+#include "mbs/base/aligned_numbers.hpp"
 #include "mbs/base/elementary.hpp"
-#include "mbs/base/packed.hpp"
+#include "mbs/base/registers/packed.hpp"
 #include "mbs/model/inertia.hpp"
 #include "mbs/model/spatial.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <utility>
 
 using namespace cardan;
 using namespace cardan::testing;
@@ -91,4 +96,17 @@ TEST_CASE("sines: of complex angles", "[analytic]") {
     CHECK(s(1).real() == Approx(std::sin(0.3)));
     CHECK(s(1).imag() / 1e-40 == Approx(std::cos(0.3)));
     CHECK(c(1).imag() / 1e-40 == Approx(-std::sin(0.3)));
+}
+
+TEST_CASE("aligned numbers: zero, and at a multiple of 32 bytes, copied as well", "[property]") {
+    for (std::size_t blocks = 1; blocks < 20; ++blocks) {
+        AlignedNumbers numbers(blocks);
+        for (std::size_t i = 0; i < 4 * blocks; ++i) CHECK(numbers.data()[i] == 0);
+        numbers.data()[4 * blocks - 1] = 7;
+        const AlignedNumbers copy = numbers;
+        CHECK(copy.data()[4 * blocks - 1] == 7);
+        CHECK(copy.blocks() == blocks);
+        for (const double* x : {std::as_const(numbers).data(), copy.data()})
+            CHECK(std::bit_cast<std::uintptr_t>(x) % 32 == 0);
+    }
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "mbs/base/entry.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/kinematics.hpp"
 #include "mbs/system/system.hpp"
 
 #include <cmath>
@@ -99,17 +99,17 @@ public:
         for (std::size_t i = 0; i < all.size(); ++i) {
             const At at(*this, in, all, i);
             const Vec3 f = at.force();
-            const auto twist = [&](int a) { return own_twist_at(kin, a, at.x); };
+            const auto twist = [&](int a) { return twist_at(kin, a, at.x); };
             // d^2 x / dq^a dq^b: the joint nearer the base turns what the other one does.
             const auto second = [&](int a, int b) {
                 return cross<double>(twist(std::min(a, b)).w, twist(std::max(a, b)).v);
             };
-            for (int b = body; b >= 0; b = own_parent(kin.model(), b)) {
+            for (int b = body; b >= 0; b = kin.model().body(b).parent) {
                 Vec3 velocity = Vec3::Zero();  // of the point, by q^b
-                for (int a = body; a >= 0; a = own_parent(kin.model(), a)) velocity += second(a, b) * in.qd(a);
+                for (int a = body; a >= 0; a = kin.model().body(a).parent) velocity += second(a, b) * in.qd(a);
                 const Vec3 by_q = at.force_by(twist(b).v, cross<double>(twist(b).w, at.k), velocity),
                            by_qd = at.force_by(Vec3::Zero(), Vec3::Zero(), twist(b).v);
-                for (int a = body; a >= 0; a = own_parent(kin.model(), a)) {
+                for (int a = body; a >= 0; a = kin.model().body(a).parent) {
                     J.Q_q(a, b) += second(a, b).dot(f) + twist(a).v.dot(by_q);
                     J.Q_qd(a, b) += twist(a).v.dot(by_qd);
                 }
@@ -132,8 +132,8 @@ private:
             k = pose(kin, m.frame).R * m.direction();
             flow = of.wave_.at(x, in.time);
             w = flow.velocity;
-            for (int a = kin.model().frame(m.frame).body; a >= 0; a = own_parent(kin.model(), a))
-                w -= own_twist_at(kin, a, x).v * in.qd(a);
+            for (int a = kin.model().frame(m.frame).body; a >= 0; a = kin.model().body(a).parent)
+                w -= twist_at(kin, a, x).v * in.qd(a);
             across = w - k.dot(w) * k;
             const double ds = m.length() / 4 * (i % 3 == 1 ? 8.0 : 5.0) / 18;
             drag = water_density * m.C_d * m.diameter / 2 * ds;

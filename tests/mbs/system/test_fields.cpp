@@ -1,6 +1,6 @@
 // Fields of wrenches: the same as loads on frames where they are constant, and what they add to the loads of joints.
 #include "mbs/base/error.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/kinematics.hpp"
 #include "mbs/system/joint_loads.hpp"
 #include "tests/mbs/system/forced_tree.hpp"
 #include "tests/support/catch.hpp"
@@ -104,7 +104,7 @@ ForceElement maxwell_field(const ForcedTree& at, int body, bool exact) {
     const auto twist = [body](const StateView& in, int a) {
         const Model& model = in.kinematics.model();
         return model.precedes(a, model.index(BodyId{body}))
-                   ? own_twist_at(in.kinematics, a, in.kinematics.origin(model.index(BodyId{body}))).v.x()
+                   ? twist_at(in.kinematics, a, in.kinematics.origin(model.index(BodyId{body}))).v.x()
                    : 0.0;
     };
     field.evaluate = [twist](const ElementView& in, ElementForces& out) {

@@ -3,6 +3,7 @@
 // Reference: the machine that was written. What is compared is not the text alone, which a field that is forgotten on
 // both sides would not change, but what the kernels make of it: forces of the air, separation points, operating points.
 #include "elements/aerodynamics/rigid_rotor.hpp"
+#include "elements/wind/iec_wind.hpp"
 #include "mbs/base/units.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/turbines/readers/model_files.hpp"
@@ -12,6 +13,10 @@
 #include "turbines/machine/result.hpp"
 #include "turbines/machine/wind_text.hpp"
 #include "turbines/model/assembly.hpp"
+#include "turbines/readers/wind_box_file.hpp"
+
+#include <filesystem>
+#include <fstream>
 
 namespace cardan::testing::machine_text_tests {
 
@@ -303,6 +308,56 @@ TEST_CASE("wind yaml: a wind over time is read again from a description, bit for
     std::string bad = about;
     bad.replace(bad.find("speed: ["), 8, "speed: [1, ");
     CHECK_THAT(message_of([&] { (void)wind_of(bad, "a.h5"); }), Contains("values of speed = 4; allowed: 3"));
+}
+
+TEST_CASE("wind yaml: a gust and a box in turned axes are read again, and the box is the one that was", "[property]") {
+    const std::filesystem::path folder = std::filesystem::path(CARDAN_TEST_OUTPUT_DIR) / "wind_yaml",
+                                elsewhere = folder / "results";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(elsewhere);
+    const auto data = std::filesystem::path(CARDAN_SOURCE_DIR) / "tests/data/wind";
+    for (const char* name : {"box8.bts", "native.ipt", "native.wnd"})
+        std::filesystem::copy_file(data / name, folder / name);
+    for (const char* name : {"box8.bts", "native.ipt"}) {
+        CAPTURE(name);
+        const WindBoxFile file = read_wind_box(folder / name);
+        const Gust gust = iec_gust({.hub_height = 70, .rotor_diameter = 40}, iec_wind_name("ecd-:9"), 2);
+        const Wind wind = Wind(file.box, file.mean).with_outside(OutsideBox::hold).with(gust).turned(0.2, 0.1).over(-3);
+        const std::string about = "made by a test\n\na line\n" + to_yaml(wind) + "the rest\n\nmore\n";
+        const auto same = [&](const Wind& read) {
+            for (const double t : {0.0, 3.3, 9.0, 50.0})
+                for (const double z : {5.0, 40.0, 71.0, 140.0})
+                    if (read.at(t).at({3, 4, z}) != wind.at(t).at({3, 4, z})) return false;
+            return true;
+        };
+        const auto read = wind_of(about, (elsewhere / "a.h5").string());
+        REQUIRE(read);
+        CHECK(same(*read));
+        CHECK(to_yaml(*read) == to_yaml(wind));
+        CHECK(*read->gust() == gust);
+        // A result that has moved with its box.
+        const std::filesystem::path binary = read->box()->data().origin.files.front();
+        for (const std::string& used : read->box()->data().origin.files)
+            std::filesystem::rename(used, elsewhere / std::filesystem::path(used).filename());
+        const auto moved = wind_of(about, (elsewhere / "a.h5").string());
+        REQUIRE(moved);
+        CHECK(same(*moved));
+        CHECK_THAT(message_of([&] { (void)wind_of(about, "b.h5"); }), Contains(binary.filename().string()));
+        // Another box of the same size.
+        std::fstream bytes(elsewhere / binary.filename(), std::ios::in | std::ios::out | std::ios::binary);
+        bytes.seekp(-3, std::ios::end);
+        bytes.put('x');
+        bytes.close();
+        CHECK_THAT(message_of([&] { (void)wind_of(about, (elsewhere / "a.h5").string()); }),
+                   Contains("that of the wind box of the run"));
+    }
+    // Places beyond the end of a file are refused before they are read.
+    const WindBoxFile file = read_wind_box(data / "box8.bts");
+    std::string about = "made by a test\n\n" + to_yaml(Wind(file.box, file.mean));
+    const std::size_t planes = about.find("planes: 16");
+    REQUIRE(planes != std::string::npos);
+    about.replace(planes, 10, "planes: 99");
+    CHECK_THAT(message_of([&] { (void)wind_of(about, "a.h5"); }), Contains("numbers [bytes]"));
 }
 
 TEST_CASE("wind yaml: an hour at 50 Hz is read again, what does not change is one number", "[property]") {

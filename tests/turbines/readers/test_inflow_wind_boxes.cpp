@@ -23,7 +23,7 @@ const Words newest{"RefHt", "Filename_Uni", "RefHt_Uni", "FileName_BTS", "RefHt_
 struct MainFile {
     int type = 3;
     Words words = newest;
-    std::string turbsim = "box8.bts", root = "nrel", scaling = "0", profile = "2", offset = "4", u = "hawc_u.bin",
+    std::string turbsim = "box8.bts", root = "nrel", scaling = "0", mean = "2", offset = "4", u = "hawc_u.bin",
                 more = "";
     double direction = 0, upflow = 0;
 
@@ -44,7 +44,7 @@ struct MainFile {
                             words.hawc_height, " - m\n --- scaling ---\n", scaling,
                             " ScaleMethod\n2 SFx\n3 SFy\n4 SFz\n1.7 SigmaFx\n1.3 SigmaFy\n"
                             "0.9 SigmaFz\n --- mean ---\n10 URef\n",
-                            profile, " WindProfile\n0.2 ", words.hawc_exponent, " - exponent\n0.03 Z0\n",
+                            mean, " WindProfile\n0.2 ", words.hawc_exponent, " - exponent\n0.03 Z0\n",
                             offset.empty() ? "" : offset + " XOffset\n", "===== OUTPUT =====\nFalse SumPrint - flag\n");
     }
 };
@@ -88,7 +88,7 @@ TEST_CASE("inflow wind: all kinds of boxes, and uniform winds, are as InflowWind
     check_case("wnd type 4 nrel", folder.read({.type = 4}).wind);
     check_case("wnd type 4 nrel", folder.read({.type = 4, .root = "NREL.wnd"}).wind);
     check_case("hawc", folder.read({.type = 5}).wind);
-    check_case("hawc scaled log", folder.read({.type = 5, .scaling = "2", .profile = "1", .offset = ""}).wind);
+    check_case("hawc scaled log", folder.read({.type = 5, .scaling = "2", .mean = "1", .offset = ""}).wind);
     check_case("wnd native", folder.read({.type = 7, .root = "native.ipt"}).wind);
     check_case("uniform", folder.read({.type = 2}).wind);
 
@@ -111,9 +111,9 @@ TEST_CASE("inflow wind: spellings of all versions", "[discrete]") {
 
 TEST_CASE("inflow wind: factors, the order of the planes, what boxes do not have", "[property]") {
     const WindFolder folder;
-    const MainFile main{.type = 5, .scaling = "1", .profile = "0"};
-    const InflowWindFile scaled = folder.read(main), as_is = folder.read({.type = 5, .profile = "0"}),
-                         last = folder.read({.type = 5, .profile = "0"}, PlaneOrder::last_plane_first);
+    const MainFile main{.type = 5, .scaling = "1", .mean = "0"};
+    const InflowWindFile scaled = folder.read(main), as_is = folder.read({.type = 5, .mean = "0"}),
+                         last = folder.read({.type = 5, .mean = "0"}, PlaneOrder::last_plane_first);
     const WindBox &box = *scaled.wind.box(), &raw = *as_is.wind.box(), &reversed = *last.wind.box();
     CHECK(scaled.wind.rows().front().shear == Shear::none);
     for (int t = 0; t < 16; ++t)
@@ -134,7 +134,7 @@ TEST_CASE("inflow wind: what is wrong with a box is said at the entry of the mai
     check_parts(folder.refused({.type = 4, .root = "box8.bts"}), {"wind.dat:19: FilenameRoot", "box8.bts.wnd"});
     check_parts(folder.refused({.type = 5, .u = "hawc.bin"}), {"wind.dat:22: FileName_u", "hawc.bin"});
     check_parts(folder.refused({.type = 5, .scaling = "3"}), {"wind.dat:33", "ScaleMethod = 3"});
-    check_parts(folder.refused({.type = 5, .profile = "-1"}), {"wind.dat:42", "WindProfile = -1"});
+    check_parts(folder.refused({.type = 5, .mean = "-1"}), {"wind.dat:42", "WindProfile = -1"});
     MainFile main{.type = 5};
     const auto with = [&](const std::string& from, const std::string& to) {
         std::string all = main.text();

@@ -58,8 +58,8 @@ TEST_CASE("wind boxes: one box under all headers of Bladed's kind", "[property]"
     folder.replace("nrel.sum", "1.0471 %", text(intensities[1], " %"));
     folder.replace("nrel.sum", "0.6955 %", text(intensities[2], " %"));
     const WindBoxFile reference = read_bladed_box(test::wind_file("nrel.wnd"));
-    CHECK(reference.profile.reference_height == 70);
-    CHECK(reference.profile.speed == 0);
+    CHECK(reference.mean.reference_height == 70);
+    CHECK(reference.mean.speed == 0);
     const auto id = [](std::int16_t kind) { return Bytes().add(std::int16_t{-99}, kind).all; };
     const std::string counts = Bytes().add(0, 3).all;  // size of the header, components
     check_same(*folder.read(id(3) + grid_of(true) + numbers).box, *reference.box);

@@ -20,9 +20,9 @@ Vec3 turned_wind(const WindBoxFile& file, double clockwise, double upflow, const
     const double a = -clockwise, b = -upflow, ca = std::cos(a), sa = std::sin(a), cb = std::cos(b), sb = std::sin(b);
     Mat3 M;
     M << cb * ca, cb * sa, -sb, -sa, ca, 0, sb * ca, sb * sa, cb;
-    const Vec3 pivot(0, 0, file.profile.reference_height), own = M * (place - pivot) + pivot;
+    const Vec3 pivot(0, 0, file.mean.reference_height), own = M * (place - pivot) + pivot;
     Vec3 velocity = file.box->at(own, time);
-    if (own.z() > 0 && file.profile.speed > 0) velocity += file.profile.at(own);
+    if (own.z() > 0 && file.mean.speed > 0) velocity += file.mean.at(own);
     return M.transpose() * velocity;
 }
 
@@ -39,13 +39,13 @@ void check_values(const std::string& name, std::size_t rows, const WindBoxFile& 
     CHECK(values.size() == rows);
     clockwise -= file.direction;
     upflow += file.upflow;
-    const Wind wind = Wind(file.box, file.profile).turned(-clockwise, upflow);
+    const Wind wind = Wind(file.box, file.mean).turned(-clockwise, upflow);
     for (const test::WindValue& one : values) {
         CAPTURE(name, one.place.transpose(), one.time, one.velocity.transpose());
         const Vec3 by_hand = turned_wind(file, clockwise, upflow, one.place, one.time);
         CAPTURE(by_hand.transpose());
         CHECK(agrees(by_hand, one.velocity));
-        // Not above the ground a profile has a wind.
+        // Not above the ground a mean has a wind.
         if (one.place.z() > 0) CHECK(agrees(wind.at(one.time).at(one.place), one.velocity));
     }
 }
@@ -65,14 +65,14 @@ TEST_CASE("wind boxes: files of Bladed's kind, with a summary and native", "[dis
     check_values("wnd native WDIR 0.15 FLINC 0.05", 40, read_native_bladed_box(wind_file("native_turned.ipt")));
 }
 
-TEST_CASE("wind boxes: HAWC2's files as they are, and scaled under a logarithmic profile", "[discrete]") {
+TEST_CASE("wind boxes: HAWC2's files as they are, and scaled under a logarithmic mean", "[discrete]") {
     Hawc2Box box = test::hawc2_box_in(wind_file("."));
     check_values("hawc", 160, read_hawc2_box(box));
     box.start = 0;
     box.scaling = BoxScaling::deviations;
     box.deviations = {1.7, 1.3, 0.9};
-    box.profile.shear = Shear::logarithmic;
-    box.profile.roughness = 0.03;
+    box.mean.shear = Shear::logarithmic;
+    box.mean.roughness = 0.03;
     check_values("hawc scaled log", 100, read_hawc2_box(box));
 }
 

@@ -207,7 +207,7 @@ TEST_CASE("damaged wind boxes: files of HAWC2's kind that do not fit, and number
     box.planes = box.rows = box.columns = most;
     refused(box, "hawc_u.bin: has 1280 bytes; allowed: 0 before the numbers and 18446744073709551615");
     box = good;
-    box.profile.speed = 0;
+    box.mean.speed = 0;
     refused(box, "mean wind speed [m/s] = 0");
 
     const std::string v = test::bytes_of(folder / "hawc_v.bin");

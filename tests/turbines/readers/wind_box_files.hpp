@@ -25,10 +25,10 @@ inline turbines::Hawc2Box hawc2_box_in(const std::string& folder) {
     box.plane_spacing = 5;
     box.row_spacing = 20;
     box.column_spacing = 15;
-    box.profile.speed = 10;
-    box.profile.reference_height = 70;
-    box.profile.shear = Shear::power;
-    box.profile.exponent = 0.2;
+    box.mean.speed = 10;
+    box.mean.reference_height = 70;
+    box.mean.shear = Shear::power;
+    box.mean.exponent = 0.2;
     box.start = 4;
     return box;
 }

@@ -15,7 +15,7 @@
 // turn with w + (kappa - w.z) z, kappa = (w.x) (s.z) / (s.x), s the shaft, and the angle of the chord against them
 // changes by kappa - w.z. The section's rate about its span, omega . z, changes by z . (omega_a x w), and by w . z.
 #include "mbs/base/entry.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"
 
 namespace cardan::turbines {
@@ -201,7 +201,7 @@ private:
     // What a point adds to a wrench about the base's origin and its derivatives.
     void add_point(std::size_t k, const AirPoint& point, Vec6& wrench, Columns6& sum_q, Columns6& sum_qd) const {
         const AirBlade& blade = parts_.blades[k];
-        const auto& frame = entry(air_.kin_.workspace().frame, point.body);
+        const auto& frame = entry(air_.kin_.arrays().frame, point.body);
         const Vec3 x = frame.o.vector() + frame.E.matrix() * point.place;
         const auto at_origin = [&](const Vec3& force, const Vec3& moment) {
             Vec6 out;
@@ -363,7 +363,7 @@ private:
             ByWake sum = ByWake::Zero();
             auto next = blade.points.begin();
             const auto gather = [&] {
-                const auto& frame = entry(air_.kin_.workspace().frame, next->body);
+                const auto& frame = entry(air_.kin_.arrays().frame, next->body);
                 const Vec3 x = frame.o.vector() + frame.E.matrix() * next->place;
                 const ByWake& by = memory_.by_wake[k * sections + next->section];
                 for (Eigen::Index c = 0; c < by.cols(); ++c) {

@@ -1,8 +1,8 @@
 #include "turbines/aerodynamics/detail/air_evaluation.hpp"
 
 #include "mbs/base/elementary.hpp"
-#include "mbs/base/packed.hpp"
-#include "mbs/base/vectorised.hpp"
+#include "mbs/base/registers/packed.hpp"
+#include "mbs/base/registers/vectorised.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,13 @@ using Packed = Packed3<double>;
 
 // Places, axes and velocities of sections, and their chords' components; a vector fills a register.
 CARDAN_VECTORISED void place_blade(std::size_t count, const AirSection* __restrict sections,
-                                   const Workspace::Frame* frames, const BodyRate* rates, const Vec3& shaft,
+                                   const KernelArrays::Frame* frames, const BodyRate* rates, const Vec3& shaft,
                                    const Vec3& hub, SectionState* __restrict out, double* __restrict along_x,
                                    double* __restrict along_y) {
     const Packed e = Packed::of(shaft), h = Packed::of(hub);
     for (std::size_t i = 0; i < count; ++i) {
         const AirSection& own = sections[i];
-        const Workspace::Frame& frame = frames[own.body];
+        const KernelArrays::Frame& frame = frames[own.body];
         const BodyRate& rate = rates[own.body];
         const Packed arm = frame.E * Packed::of(own.place), place = frame.o + arm,
                      span = frame.E * Packed::of(own.span), chord = frame.E * Packed::of(own.chord),
@@ -74,8 +74,8 @@ void AirEvaluation::place_sections() {
     for (std::vector<Vec3>* places : {&scratch_.places, &scratch_.winds}) places->resize(all);
     for (std::vector<double>* numbers : {&scratch_.along_x, &scratch_.along_y, &scratch_.angles}) numbers->resize(all);
     for (std::size_t k = 0; k < parts_.blades.size(); ++k)
-        place_blade(count, parts_.blades[k].sections.data(), kin_.workspace().frame.data(), scratch_.rates.data(),
-                    shaft_, hub_, scratch_.sections.data() + k * count, scratch_.along_x.data() + k * count,
+        place_blade(count, parts_.blades[k].sections.data(), kin_.arrays().frame.data(), scratch_.rates.data(), shaft_,
+                    hub_, scratch_.sections.data() + k * count, scratch_.along_x.data() + k * count,
                     scratch_.along_y.data() + k * count);
     for (std::size_t i = 0; i < all; ++i) scratch_.places[i] = scratch_.sections[i].place;
     wind_.at(scratch_.places, scratch_.winds);

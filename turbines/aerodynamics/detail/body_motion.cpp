@@ -1,7 +1,7 @@
 #include "turbines/aerodynamics/detail/body_motion.hpp"
 
-#include "mbs/base/packed.hpp"
-#include "mbs/base/vectorised.hpp"
+#include "mbs/base/registers/packed.hpp"
+#include "mbs/base/registers/vectorised.hpp"
 
 #include <algorithm>
 
@@ -14,13 +14,13 @@ using Packed = Packed3<double>;
 // Angular velocities and velocities of the joints' origins, from the base out. Those of the body before stay in
 // registers for the next one, which it carries as a rule.
 CARDAN_VECTORISED void find_rates(std::size_t count, const int* bodies, const Model::Link* links,
-                                  const Workspace::Frame* frames, const double* qd, BodyRate* rates) {
+                                  const KernelArrays::Frame* frames, const double* qd, BodyRate* rates) {
     int last = -1;
     Packed w = Packed::zero(), v = w, o = w;
     for (std::size_t i = 0; i < count; ++i) {
         const int k = bodies[i];
         const Model::Link& link = links[k];
-        const Workspace::Frame& frame = frames[k];
+        const KernelArrays::Frame& frame = frames[k];
         if (link.parent != last) {
             const bool on_base = link.parent < 0;
             w = on_base ? Packed::zero() : Packed::of(rates[link.parent].angular);
@@ -39,23 +39,23 @@ CARDAN_VECTORISED void find_rates(std::size_t count, const int* bodies, const Mo
 
 BodyMotion::BodyMotion(const StateView& at, std::span<const int> bodies, std::vector<BodyRate>& rates)
     : kin_(at.kinematics), rates_(rates) {
-    rates_.resize(model().links().size());
-    find_rates(bodies.size(), bodies.data(), model().links().data(), kin_.workspace().frame.data(), at.qd.data(),
+    rates_.resize(static_cast<std::size_t>(model().size()));
+    find_rates(bodies.size(), bodies.data(), model().links().data(), kin_.arrays().frame.data(), at.qd.data(),
                rates_.data());
 }
 
 Mat3 BodyMotion::rotation(int body) const {
-    return body < 0 ? Mat3(Mat3::Identity()) : entry(kin_.workspace().frame, body).E.matrix();
+    return body < 0 ? Mat3(Mat3::Identity()) : entry(kin_.arrays().frame, body).E.matrix();
 }
 
 Vec3 BodyMotion::place(int body, const Vec3& in_body) const {
     if (body < 0) return in_body;
-    const auto& frame = entry(kin_.workspace().frame, body);
+    const auto& frame = entry(kin_.arrays().frame, body);
     return frame.o.vector() + frame.E.matrix() * in_body;
 }
 
 Mover BodyMotion::mover(int coordinate) const {
-    const auto& frame = entry(kin_.workspace().frame, coordinate);
+    const auto& frame = entry(kin_.arrays().frame, coordinate);
     const Vec3 e = frame.E[2].vector(), o = frame.o.vector();
     const BodyRate& rate = entry(rates_, coordinate);
     const Vec3 linear = rate.origin - cross<double>(rate.angular, o);

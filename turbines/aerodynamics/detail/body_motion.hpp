@@ -4,7 +4,7 @@
 #pragma once
 
 #include "mbs/base/entry.hpp"
-#include "mbs/kernels/path_twists.hpp"
+#include "mbs/kernels/registers/path_twists.hpp"
 #include "mbs/system/forces.hpp"
 
 #include <span>
@@ -49,7 +49,7 @@ public:
     Vec3 velocity(int body, const Vec3& place) const {
         if (body < 0) return Vec3::Zero();
         const BodyRate& rate = entry(rates_, body);
-        return rate.origin + cross<double>(rate.angular, place - entry(kin_.workspace().frame, body).o.vector());
+        return rate.origin + cross<double>(rate.angular, place - entry(kin_.arrays().frame, body).o.vector());
     }
     Mover mover(int coordinate) const;
     /// Number of bodies from the base to this one.

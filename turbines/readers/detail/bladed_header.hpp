@@ -6,7 +6,7 @@
 
 namespace cardan::turbines {
 
-/// What a .wnd says of itself.
+/// The header of a .wnd.
 struct BladedHeader {
     int components = 0;  ///< the first of u, v, w
     int planes = 0;      ///< as the length of the file says: twice the number in the header, or one more

@@ -1,5 +1,5 @@
 /// @file
-/// What the readers of wind boxes have in common. Internal to the readers: not installed.
+/// Parts that the readers of wind boxes have in common. Internal to the readers: not installed.
 #pragma once
 
 #include "elements/wind/wind_box.hpp"

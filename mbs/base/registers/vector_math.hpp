@@ -5,7 +5,7 @@
 /// them.
 #pragma once
 
-#include "mbs/base/vectorised.hpp"
+#include "mbs/base/registers/vectorised.hpp"
 
 #include <cmath>
 

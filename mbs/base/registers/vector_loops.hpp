@@ -2,7 +2,7 @@
 /// Loops over plain numbers in whole registers, for functions marked CARDAN_VECTORISED.
 #pragma once
 
-#include "mbs/base/packed.hpp"
+#include "mbs/base/registers/packed.hpp"
 
 #include <cstddef>
 #include <cstring>

@@ -2,11 +2,11 @@
 /// Three-vectors and 3 x 3 matrices as the kernels hold them: a vector fills one register of four numbers.
 ///
 /// Everything here is inlined into functions marked CARDAN_VECTORISED; the same source also works for complex numbers,
-/// element by element. The fourth number of a vector is zero.
+/// element by element. The fourth number of a vector is zero. Headers that are installed do not include it.
 #pragma once
 
+#include "mbs/base/registers/vectorised.hpp"
 #include "mbs/base/types.hpp"
-#include "mbs/base/vectorised.hpp"
 
 #include <type_traits>
 
@@ -118,6 +118,23 @@ struct Packed33 {  // NOLINT(bugprone-reserved-identifier): clang's name of the 
         return *this;
     }
 };
+
+/// The numbers of vectors that stand one after the other, one by one.
+template <class S>
+CARDAN_INLINE const S* numbers(const Packed3<S>* vectors) {
+    return reinterpret_cast<const S*>(vectors);
+}
+template <class S>
+CARDAN_INLINE S* numbers(Packed3<S>* vectors) {
+    return reinterpret_cast<S*>(vectors);
+}
+/// The vectors that numbers fill, four each, from a multiple of 32 bytes on.
+CARDAN_INLINE const Packed3<double>* vectors(const double* numbers) {
+    return static_cast<const Packed3<double>*>(static_cast<const void*>(numbers));
+}
+CARDAN_INLINE Packed3<double>* vectors(double* numbers) {
+    return static_cast<Packed3<double>*>(static_cast<void*>(numbers));
+}
 
 /// A constant in the scalar of the kernel.
 template <class S>

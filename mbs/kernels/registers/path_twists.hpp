@@ -3,7 +3,8 @@
 #pragma once
 
 #include "mbs/base/entry.hpp"
-#include "mbs/kernels/kinematics.hpp"
+#include "mbs/kernels/branch_matrix.hpp"
+#include "mbs/kernels/registers/kernel_arrays.hpp"
 
 namespace cardan {
 
@@ -35,7 +36,7 @@ public:
         const auto at = [&](int i) CARDAN_INLINE_LAMBDA { return row(first_row + i)[column / 4].lanes[column % 4]; };
         return Packed3<S>::of(at(0), at(1), at(2));
     }
-    CARDAN_INLINE void set(const Model::Link& link, const typename WorkspaceT<S>::Frame& frame) const {
+    CARDAN_INLINE void set(const Model::Link& link, const typename KernelArraysT<S>::Frame& frame) const {
         const Packed3<S> none = Packed3<S>::zero();
         set(w_rows, link.depth - 1, link.revolute ? frame.E[2] : none);
         set(o_rows, link.depth - 1, frame.o);
@@ -52,7 +53,7 @@ private:
 /// twist_at() for loops over the model's own indices, without checks.
 template <class S>
 CARDAN_INLINE PointTwist<S> own_twist_at(const KinematicsT<S>& kin, int a, const Vec3T<S>& C) {
-    const typename WorkspaceT<S>::Frame& frame = entry(kin.workspace().frame, a);
+    const typename KernelArraysT<S>::Frame& frame = entry(kin.arrays().frame, a);
     const Vec3T<S> e = frame.E[2].vector();
     if (entry(kin.model().links(), a).revolute) return {e, cross<S>(e, C - frame.o.vector())};
     return {Vec3T<S>::Zero(), e};
@@ -62,22 +63,12 @@ inline int own_parent(const Model& model, int a) {
     return entry(model.links(), a).parent;
 }
 
-/// The numbers of a row, one by one.
-template <class S>
-CARDAN_INLINE const S* numbers(const Packed3<S>* columns) {
-    return reinterpret_cast<const S*>(columns);
-}
-template <class S>
-CARDAN_INLINE S* numbers(Packed3<S>* columns) {
-    return reinterpret_cast<S*>(columns);
-}
-
 /// Columns of all bodies of the run that starts with body `first`; returns one past its last body. The columns of a
 /// whole run are set before the first is used, so that a register is loaded long after its four numbers were stored (no
 /// store-forwarding stall).
 template <class S>
 CARDAN_INLINE int set_run(const PathTwists<S>& path, const Model::Link* links,
-                          const typename WorkspaceT<S>::Frame* frame, int first, int n) {
+                          const typename KernelArraysT<S>::Frame* frame, int first, int n) {
     int end = first;
     for (; end < n && links[end].run == first; ++end) path.set(links[end], frame[end]);
     return end;
@@ -132,6 +123,9 @@ struct DenseSink {
 
 /// Copies them into the memory of a BranchMatrix.
 struct BranchSink {
+    explicit BranchSink(BranchMatrix& to)
+        : rows(vectors(to.rows())), columns(vectors(to.columns())), offset(to.offset()) {}
+
     Packed3<double>*rows, *columns;
     const std::size_t* offset;
 

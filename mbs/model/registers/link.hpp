@@ -2,7 +2,7 @@
 /// The numbers of a body that the kernels read. Others than kernels find the same in Model::Body.
 #pragma once
 
-#include "mbs/base/packed.hpp"
+#include "mbs/base/registers/packed.hpp"
 #include "mbs/model/model.hpp"
 
 namespace cardan {
