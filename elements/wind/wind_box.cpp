@@ -61,9 +61,10 @@ struct Cell {
 [[noreturn]] void refuse(const WindBoxData& box, const char* what, double value, const char* unit, double low,
                          double high, const Vec3& place, double time) {
     const std::string name = box.origin.files.empty() ? "wind box" : box.origin.files.front();
-    throw InputError(name, text(what, " [", unit, "]"), value,
-                     text(low, " ... ", high, "; at the place (", place.x(), ", ", place.y(), ", ", place.z(),
-                          ") m of the box's axes and t = ", time, " s; OutsideBox holds or repeats what there is"));
+    throw InputError(
+        name, text(what, " [", unit, "]"), value,
+        text(low, " ... ", high, "; at the place (", place.x(), ", ", place.y(), ", ", place.z(),
+             ") m of the box's axes and t = ", time, " s; OutsideBox::hold or OutsideBox::repeat say what is there"));
 }
 
 Between step_at(const WindBoxData& box, const Vec3& place, double time) {

@@ -30,6 +30,8 @@ inline std::string in_options(std::string text) {
         {"Controller::input", "--controller-input"},
         {"Controller::individual_pitch", "--pitch-control"},
         {"Controller::actuators", "--pitch-actuator"},
+        {"AirSettings::shear_exponent", "--shear"},
+        {"OutsideBox::hold or OutsideBox::repeat", "--wind-outside hold or repeat"},
         {"SimulationSettings::rotor_speed", "--rpm"},
         {"SimulationSettings::rotor_torque", "--rotor-torque"},
         {"SimulationSettings::wind", "--wind"},

@@ -28,7 +28,16 @@ void report_notes(const Report& report, const std::filesystem::path& path, std::
 
 // The box that a file is by itself, or what InflowWind's main file says.
 Wind inflow_of_file(const std::filesystem::path& path, const WindSite& site, const Report& report) {
+    const std::string extension = lower_case(path.extension().string());
+    if (extension == ".bin")
+        throw FileError(path.string(),
+                        "is one of three files of HAWC2's kind; InflowWind's main file (WindType 5) has "
+                        "their names and sizes");
     if (!is_wind_box(path)) {
+        if (extension == ".wnd")
+            throw FileError(path.string(),
+                            "is a table of uniform winds; InflowWind's main file (WindType 2) has its "
+                            "reference height and length");
         InflowWindFile read = read_inflow_wind(path, site.profile.density);
         report_notes(report, path, std::move(read.notes));
         return read.wind;
@@ -148,10 +157,8 @@ std::string in_words(const Wind& wind) {
 }
 
 double start_speed(const WindSource& source, const AirSettings& settings) {
-    // Only the speed at the reference height is asked for, whatever that height is.
-    AirSettings air = settings;
-    air.shear_exponent = 0;
-    return wind_of(source, {.rotor_diameter = 100, .air = air}).mean().speed;
+    // Whatever the height of the hub and the size of the rotor, on which it does not depend.
+    return wind_of(source, {.rotor_diameter = 100, .air = settings}).mean().speed;
 }
 
 std::string air_in_words(std::string_view wake, bool airfoils_unsteady) {

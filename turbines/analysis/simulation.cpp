@@ -5,6 +5,7 @@
 #include "turbines/analysis/controlled_machine.hpp"
 #include "turbines/analysis/detail/model_run.hpp"
 #include "turbines/analysis/detail/simulation_model.hpp"
+#include "turbines/analysis/machine_wind.hpp"
 #include "turbines/analysis/resume.hpp"
 #include "turbines/machine/machine_text.hpp"
 #include "turbines/model/channels.hpp"
@@ -84,7 +85,11 @@ void Simulation::Parts::set_machine(const Machine& source) {
     machine = with_settings(source, settings.machine, report());
     if (settings.machine.damping) note_undamped(machine, report());
     settings.controller = checked(settings.controller, machine, report());
-    if (!settings.wind->is_none()) static_cast<void>(machine.require_air());
+    if (!settings.wind->is_none()) {
+        static_cast<void>(machine.require_air());
+        // A file that is no wind is refused before a mesh is sought.
+        static_cast<void>(start_speed(*settings.wind, settings.air));
+    }
     if (settings.controller.acts()) make_pitch_drives(settings.controller, machine.description);
     take_operation(machine, settings, report());
     settings.rotor_speed = rotor_speed_of(settings.rotor_speed, machine, "SimulationSettings::rotor_speed", report());

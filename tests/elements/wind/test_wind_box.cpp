@@ -171,7 +171,7 @@ TEST_CASE("wind box: outside it refuses, holds or repeats, and never is silently
     CHECK_NOTHROW(box.at(there, 3));
     CHECK_NOTHROW(box.at({0, 16 + 0.8e-2 * 0.9, 50 + 0.9e-2}, 1));  // a thousandth of a cell
     check_refused([&] { box.at(there, -0.6); }, {"wind box", "time in the box [s] = -0.1", "0 ... 3.5", "(0, 1, 30) m",
-                                                 "t = -0.6 s", "holds or repeats"});
+                                                 "t = -0.6 s", "OutsideBox::hold or OutsideBox::repeat"});
     check_refused([&] { box.at(there, 3.1); }, {"time in the box [s] = 3.6"});
     check_refused([&] { box.at({0, 17, 30}, 1); }, {"place across the wind [m] = 17", "-16 ... 16"});
     check_refused([&] { box.at({0, -17, 30}, 1); }, {"place across the wind [m] = -17"});
