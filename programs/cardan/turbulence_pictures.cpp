@@ -259,6 +259,11 @@ double turning_radius(const BoxView& view) {
     return std::max(0.0, std::min(radius, room));
 }
 
+void print_velocities(const std::string& what, const Vec3& values) {
+    const auto shown = [](double value) { return std::abs(value) < 5e-5 ? 0.0 : value; };  // without a sign
+    std::printf("%-34s %9.4f %9.4f %9.4f\n", what.c_str(), shown(values[0]), shown(values[1]), shown(values[2]));
+}
+
 void print_box(const BoxView& view) {
     const WindBoxData& data = view.box->data();
     const BoxGrid& grid = data.grid;
@@ -278,12 +283,9 @@ void print_box(const BoxView& view) {
     if (!data.origin.checksum.empty()) std::printf("checksum      %s\n", data.origin.checksum.c_str());
     if (!data.origin.note.empty()) std::printf("note          %s\n", data.origin.note.c_str());
     std::printf("\n%-34s %9s %9s %9s\n", "m/s", "u", "v", "w");
-    const auto line = [](const std::string& what, const Vec3& values) {
-        std::printf("%-34s %9.4f %9.4f %9.4f\n", what.c_str(), values[0], values[1], values[2]);
-    };
-    line(text("mean at the hub, ", rounded(view.hub_height), " m"),
-         hub.mean + Vec3(mean_at(view, view.hub_height), 0, 0));
-    line("standard deviation there", hub.deviation);
+    print_velocities(text("mean at the hub, ", rounded(view.hub_height), " m"),
+                     hub.mean + Vec3(mean_at(view, view.hub_height), 0, 0));
+    print_velocities("standard deviation there", hub.deviation);
 }
 
 bool draw_box(const BoxView& view, const std::filesystem::path& path) {

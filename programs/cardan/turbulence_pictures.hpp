@@ -29,6 +29,9 @@ struct BoxView {
 /// A point of the picture's third panel: three quarters of the rotor's radius, or of what fits around the hub.
 double turning_radius(const BoxView& view);
 
+/// A line of the table of print_box(), m/s.
+void print_velocities(const std::string& what, const Vec3& values);
+
 /// Size, times, checksum, note; mean and standard deviations at the hub.
 void print_box(const BoxView& view);
 

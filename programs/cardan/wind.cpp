@@ -198,15 +198,13 @@ std::string turbulence_in_words(const WindCommandArguments& a, const TurbulenceR
     return text(model, ", ", a.turbulence, " of class ", name_of(class_of(a.wind_class)), ": ", sigma);
 }
 
-void print_deviations(const std::string& what, const Vec3& values) {
-    std::printf("%-34s %9.4f %9.4f %9.4f\n", what.c_str(), values[0], values[1], values[2]);
-}
-
 BoxView view_of(const WindCommandArguments& a, const turbines::WindBoxFile& file) {
     BoxView view;
     view.box = file.box.get();
     view.mean = file.profile;
-    view.title = std::filesystem::path(file.box->data().origin.files.front()).filename().string();
+    const WindBoxData& data = file.box->data();
+    const std::string name = std::filesystem::path(data.origin.files.front()).filename().string();
+    view.title = data.origin.note.empty() ? name : text(name, ": ", data.origin.note.substr(0, 90));
     view.hub_height = a.hub_height.value_or(file.profile.reference_height);
     view.diameter = a.diameter;
     if (a.rpm) view.rotor_speed = *a.rpm * units::rpm;
@@ -257,8 +255,8 @@ int make(const WindCommandArguments& a, const std::string& out) {
     view.diameter = site.diameter;
     view.rotor_speed = site.rotor_speed;
     print_box(view);
-    print_deviations("  asked for, of infinite time", target_of(request).deviations());
-    if (!request.scaled) print_deviations("  expected of all seeds in this box", made.expected);
+    print_velocities("  asked for, of infinite time", target_of(request).deviations());
+    if (!request.scaled) print_velocities("  expected of all seeds in this box", made.expected);
     set_target(view);
     std::string files = out + ".bts";
     if (!a.no_picture) {
