@@ -1,5 +1,5 @@
 /// @file
-/// What a box of wind holds, seen at its points, between them, and from a turning blade.
+/// Spectra of a box of wind, at its points, between them, and from a turning blade.
 ///
 ///     const WindBox& box = ...;
 ///     const PowerSpectrum u = in_bands(power_spectrum(spectrum_lines(series_at(box, 0, 15, 15))), 10);
@@ -23,7 +23,7 @@ int row_near(const BoxGrid& grid, double height);
 /// The column of the grid next to a place across the wind, m to the left of the middle.
 int column_near(const BoxGrid& grid, double y);
 
-/// How points are chosen whose coherence is averaged.
+/// Choices of the points whose coherence is averaged.
 struct CoherenceOptions {
     int per_decade = 8;  ///< bands
     int rows = 8;        ///< at most so many rows are taken, evenly spaced over the grid
@@ -36,7 +36,7 @@ struct CoherenceOptions {
 /// @return empty if it was cancelled
 /// @throws InputError for a component, a distance, options out of range
 Coherence coherence_across(const WindBox& box, int component, int columns_apart, const CoherenceOptions& options = {});
-/// The same for several distances, whose points are transformed once.
+/// Computes the coherence for several distances, whose points are transformed once.
 std::vector<Coherence> coherences_across(const WindBox& box, int component, std::span<const int> columns_apart,
                                          const CoherenceOptions& options = {});
 
@@ -51,7 +51,7 @@ struct TurningPoint {
     Vec3 place(double time) const;
 };
 
-/// What a turning point sees of a component in axes that do not turn (rotational sampling), m/s, from t = 0 over the
+/// The series that a turning point sees of a component in axes that do not turn (rotational sampling), m/s, from t = 0 over the
 /// length of the box.
 /// @param step  s; 0: that of the box
 /// @throws InputError for a circle that leaves the grid, unless OutsideBox says what is there, and for numbers out of

@@ -169,7 +169,7 @@ std::string turning_spectra(const BoxView& view) {
 }
 
 // Mean and deviation of u over the height, in the middle column.
-std::string profile_panel(const BoxView& view) {
+std::string height_panel(const BoxView& view) {
     const BoxGrid& grid = view.box->grid();
     std::vector<double> heights, means, low, high;
     for (int row = 0; row < grid.rows; ++row) {
@@ -180,12 +180,12 @@ std::string profile_panel(const BoxView& view) {
         low.push_back(means.back() - u.deviation[0]);
         high.push_back(means.back() + u.deviation[0]);
     }
-    return data_block("profile", heights, means, low, high) + begin_panel(turning_panel, "u over the height") +
+    return data_block("over_height", heights, means, low, high) + begin_panel(turning_panel, "u over the height") +
            text(
                "set xlabel 'u in m/s'\nset ylabel 'height in m'\nset key right bottom font ',10'\n"
-               "plot $profile using 2:1 with linespoints pt 7 ps 0.4 lw 1.4 lc rgb ",
-               hex(0), " title 'mean', $profile using 3:1 with lines dt 2 lc rgb ", hex(1),
-               " title 'less and more by its deviation', $profile using 4:1 with lines dt 2 lc rgb ", hex(1),
+               "plot $over_height using 2:1 with linespoints pt 7 ps 0.4 lw 1.4 lc rgb ",
+               hex(0), " title 'mean', $over_height using 3:1 with lines dt 2 lc rgb ", hex(1),
+               " title 'less and more by its deviation', $over_height using 4:1 with lines dt 2 lc rgb ", hex(1),
                " notitle\n");
 }
 
@@ -296,7 +296,7 @@ bool draw_box(const BoxView& view, const std::filesystem::path& path) {
                  text("set label 1 ", gnuplot_text(view.title), " at screen ", left_edge, ",0.975 left font ',14'\n"));
     std::string script = "set multiplot\nset tics nomirror\nset border 3\n" + first;
     for (const auto& panel :
-         {point_spectra, view.rotor_speed ? turning_spectra : profile_panel, coherence_curves, plane_map}) {
+         {point_spectra, view.rotor_speed ? turning_spectra : height_panel, coherence_curves, plane_map}) {
         if (cancelled()) return false;
         const std::string part = panel(view);
         if (part.empty()) return false;

@@ -13,7 +13,7 @@
 
 namespace cardan::program {
 
-/// What is looked at in a box, and where.
+/// A box that is looked at, and where.
 struct BoxView {
     const WindBox* box = nullptr;
     SteadyWind mean = {};               ///< that is added to the box

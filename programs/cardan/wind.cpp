@@ -154,7 +154,7 @@ Site site_of(const WindCommandArguments& a) {
     return site;
 }
 
-IecTurbulence kind_of(const std::string& word) {
+IecTurbulence turbulence_kind(const std::string& word) {
     for (const IecTurbulence kind : {IecTurbulence::etm, IecTurbulence::ewm1, IecTurbulence::ewm50})
         if (word == name_of(kind)) return kind;
     return IecTurbulence::ntm;
@@ -165,7 +165,7 @@ TurbulenceRequest request_of(const WindCommandArguments& a, const Site& site) {
         throw InputError("--speed", "value [m/s]", *a.speed,
                          text("none beside --turbulence ", a.turbulence, ", whose speed is that of the class"));
     TurbulenceRequest request =
-        iec_turbulence(kind_of(a.turbulence), class_of(a.wind_class), site.hub_height, a.speed.value_or(0));
+        iec_turbulence(turbulence_kind(a.turbulence), class_of(a.wind_class), site.hub_height, a.speed.value_or(0));
     if (a.deviation) request.deviation = *a.deviation;
     if (a.shear) request.exponent = *a.shear;
     request.model = a.spectrum == "mann" ? TurbulenceModel::mann : TurbulenceModel::kaimal;
@@ -201,11 +201,11 @@ std::string turbulence_in_words(const WindCommandArguments& a, const TurbulenceR
 BoxView view_of(const WindCommandArguments& a, const turbines::WindBoxFile& file) {
     BoxView view;
     view.box = file.box.get();
-    view.mean = file.profile;
+    view.mean = file.mean;
     const WindBoxData& data = file.box->data();
     const std::string name = std::filesystem::path(data.origin.files.front()).filename().string();
     view.title = data.origin.note.empty() ? name : text(name, ": ", data.origin.note.substr(0, 90));
-    view.hub_height = a.hub_height.value_or(file.profile.reference_height);
+    view.hub_height = a.hub_height.value_or(file.mean.reference_height);
     view.diameter = a.diameter;
     if (a.rpm) view.rotor_speed = *a.rpm * units::rpm;
     view.cancelled = interrupted;
@@ -276,7 +276,7 @@ turbines::WindBoxFile wind_to_look_at(const std::string& path) {
     turbines::InflowWindFile file = turbines::read_inflow_wind(path);
     print_notes(file.notes, false);
     if (file.wind.box() == nullptr) throw InputError(path, "wind", "without turbulence", "a turbulent wind");
-    return {.box = std::make_shared<const WindBox>(*file.wind.box()), .profile = file.wind.rows().front()};
+    return {.box = std::make_shared<const WindBox>(*file.wind.box()), .mean = file.wind.rows().front()};
 }
 
 // A machine without a speed is a slip of its own.

@@ -1,5 +1,5 @@
 /// @file
-/// Where the rotor of a machine is in the wind, and how large.
+/// Place and size of the rotor of a machine in the wind.
 #pragma once
 
 #include "turbines/machine/machine.hpp"

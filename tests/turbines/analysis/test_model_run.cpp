@@ -98,9 +98,9 @@ TEST_CASE("model run: it survives our own YAML, and one that cannot be had says 
     CHECK(again.run->yaw == machine.run->yaw);
     CHECK(to_yaml(again) == to_yaml(machine));
 
-    model.folder.replace("small_Inflow.dat", "1 WindType", "3 WindType");
+    model.folder.replace("small_Inflow.dat", "1 WindType", "6 WindType");
     check_refused([&] { Simulation(model.read(), coarse()); },
-                  {"SimulationSettings::wind", "wind of small.fst", "WindType = 3", "or none"});
+                  {"SimulationSettings::wind", "wind of small.fst", "WindType = 6", "or none"});
     model.folder.replace("small_AeroDyn.dat", "NumAFfiles", "NumAFs");
     check_refused([&] { Simulation(model.read(), coarse()); }, {"SimulationSettings::wind", "NumAFfiles", "or none"});
 }

@@ -39,7 +39,7 @@ struct WindBoxFields {
     OutsideBox outside = OutsideBox::refuse;
 };
 
-inline constexpr int most_in_box = 1 << 30;  // planes, points: of a file that is mapped
+inline constexpr int max_in_box = 1 << 30;  // planes, points: of a file that is mapped
 
 template <class Archive, class Fields>
 void wind_box_fields(Archive& archive, Fields& f) {
@@ -48,9 +48,9 @@ void wind_box_fields(Archive& archive, Fields& f) {
     archive.word("checksum", f.checksum);
     archive.word("note", f.note);
     archive.optional_choice("numbers", f.type, {BoxNumbers::Type::int16, BoxNumbers::Type::float32});
-    archive.integer("planes", f.grid.steps, most_in_box);
-    archive.integer("rows", f.grid.rows, most_in_box);
-    archive.integer("columns", f.grid.columns, most_in_box);
+    archive.integer("planes", f.grid.steps, max_in_box);
+    archive.integer("rows", f.grid.rows, max_in_box);
+    archive.integer("columns", f.grid.columns, max_in_box);
     archive.number("time_step", f.grid.time_step);
     archive.number("row_spacing", f.grid.row_spacing);
     archive.number("column_spacing", f.grid.column_spacing);
@@ -58,7 +58,7 @@ void wind_box_fields(Archive& archive, Fields& f) {
     archive.numbers("u", f.u);
     archive.numbers("v", f.v);
     archive.numbers("w", f.w);
-    archive.integer("tower_points", f.tower_points, most_in_box);
+    archive.integer("tower_points", f.tower_points, max_in_box);
     archive.number("tower_highest", f.tower_highest);
     archive.number("tower_spacing", f.tower_spacing);
     archive.numbers("tower_u", f.tower_u);

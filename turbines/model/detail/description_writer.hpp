@@ -65,8 +65,8 @@ class Writer {
 public:
     explicit Writer(BeamLines lines) : lines_(lines) {}
     void word(const char* key, const std::string& value) { entry(key, quoted(value)); }
-    void integer(const char* key, int value, int most = max_counted) {
-        if (value < 0 || value > most) throw InputError(key, "number", value, text("0 ... ", most));
+    void integer(const char* key, int value, int max = max_counted) {
+        if (value < 0 || value > max) throw InputError(key, "number", value, text("0 ... ", max));
         entry(key, text(value));
     }
     void number(const char* key, double value) { entry(key, digits(value, key)); }

@@ -45,7 +45,7 @@ public:
 
     void version();
     void word(const char* key, std::string& value) { value = at()[key].word(); }
-    void integer(const char* key, int& value, int most = max_counted) { value = at()[key].integer(0, most); }
+    void integer(const char* key, int& value, int max = max_counted) { value = at()[key].integer(0, max); }
     void flag(const char* key, bool& value) { value = at()[key].flag(); }
     void number(const char* key, double& value) { value = at()[key].number(); }
     void numbers(const char* key, std::vector<double>& values) { values = at()[key].numbers(); }
