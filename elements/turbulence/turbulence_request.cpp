@@ -4,16 +4,33 @@
 #include "elements/turbulence/mann_spectra.hpp"
 #include "mbs/base/entry.hpp"
 #include "mbs/base/error.hpp"
+#include "mbs/base/text.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 namespace cardan {
 
 namespace {
+
+// All 64 bits, which a double does not hold.
+std::optional<std::uint64_t> whole_number(std::string_view digits) {
+    constexpr std::uint64_t max = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t value = 0;
+    for (const char c : digits) {
+        if (!is_digit(c)) return std::nullopt;
+        const auto digit = static_cast<std::uint64_t>(c - '0');
+        if (value > (max - digit) / 10) return std::nullopt;
+        value = 10 * value + digit;
+    }
+    return digits.empty() ? std::nullopt : std::optional(value);
+}
 
 constexpr auto request_place = "turbulence";
 constexpr std::string_view note_begin = "Cardan: ";
@@ -100,8 +117,9 @@ bool take_field(std::string_view words, TurbulenceRequest& request) {
     const std::string_view name = words.substr(0, blank), rest = words.substr(std::min(blank + 1, words.size()));
     const std::string_view number = rest.substr(0, rest.find(' '));
     if (name == "seed") {
-        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), request.seed);
-        return error == std::errc() && end == number.data() + number.size();
+        const std::optional<std::uint64_t> seed = whole_number(number);
+        request.seed = seed.value_or(0);
+        return seed.has_value();
     }
     for (const auto& [field, value] : {std::pair("V", &request.speed),
                                        {"hub", &request.hub_height},

@@ -92,6 +92,6 @@ add_example_test(example_turbine_time_wind_coarse cardan 0 "recorded power of ai
 add_example_test(example_turbine_time_wind_list cardan 0 "wind speed +HorWindV.*aerodynamic power +RtAeroPwr" simulate nrel5mw --wind 9 --list)
 add_example_test(example_turbine_time_wind_back cardan 1 "gust_back.csv:1: wind over time, row 2: time .s. = 0" simulate
     nrel5mw ${coarse} --wind gust_back.csv)
-add_example_test(example_turbine_time_wind_word cardan 1 "--wind: value = strong; allowed: SPEED in m/s, or FILE" simulate
+add_example_test(example_turbine_time_wind_word cardan 1 "--wind: value = strong; allowed: SPEED in m/s. or FILE" simulate
     nrel5mw ${coarse} --wind strong)
 add_example_test(example_turbine_time_wind_profiles cardan 1 "--air: value = none" simulate wt600 ${coarse} --wind 9)

@@ -5,6 +5,7 @@
 #include "turbines/readers/detail/bladed_header.hpp"
 #include "turbines/readers/detail/openfast_words.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -21,10 +22,13 @@ struct BladedSummary {
 // Reads a summary line by line, in the order in which InflowWind looks for its entries.
 class SummaryLines {
 public:
-    SummaryLines(std::string all, std::string file) : file_(std::move(file)), in_(text_reader(std::move(all))) {}
+    SummaryLines(std::string all, std::string file) : file_(std::move(file)), all_(std::move(all)) {}
 
     bool next() {
-        if (!std::getline(in_, line_)) return false;
+        if (at_ >= all_.size()) return false;
+        const std::size_t end = std::min(all_.find('\n', at_), all_.size());
+        line_ = all_.substr(at_, end - at_);
+        at_ = end + 1;
         ++number_;
         for (char& c : line_) c = upper_case(c);
         return true;
@@ -53,8 +57,8 @@ private:
         return words.front().substr(0, words.front().find('%'));
     }
 
-    std::string file_, line_;
-    std::istringstream in_;
+    std::string file_, all_, line_;
+    std::size_t at_ = 0;  // in all
     int number_ = 0;
 };
 
