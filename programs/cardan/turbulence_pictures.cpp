@@ -207,6 +207,9 @@ std::string coherence_curves(const BoxView& view) {
     const std::vector<double> f = frequencies(grid, 40);
     std::string data, plots;
     double least = -0.05;
+    // Kaimal's are the spectra alone.
+    const std::string target_name =
+        std::holds_alternative<Kaimal>(view.target.model) ? "exponential, of IEC 61400-1" : view.target_name;
     for (std::size_t i = 0; i < apart.size(); ++i) {
         const double distance = apart[i] * grid.column_spacing;
         std::vector<double> real, target;
@@ -215,7 +218,7 @@ std::string coherence_curves(const BoxView& view) {
         least = std::min(least, std::min(*std::ranges::min_element(real), *std::ranges::min_element(target)) - 0.05);
         data += data_block(text("c", i), found[i].frequency, real) + data_block(text("m", i), f, target);
         plots += text(i == 0 ? "plot " : ", ", "$m", i, " with lines lw 1.4 lc rgb '#000000' ",
-                      i == 0 ? "title " + gnuplot_text(view.target_name) : "notitle", ", $c", i,
+                      i == 0 ? "title " + gnuplot_text(target_name) : "notitle", ", $c", i,
                       " with linespoints lw 1.2 pt 7 ps 0.35 lc rgb ", hex(i), " title ",
                       gnuplot_text(text(rounded(std::round(distance * 10) / 10), " m across")));
     }
