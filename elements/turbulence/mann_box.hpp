@@ -10,12 +10,6 @@
 
 namespace cardan {
 
-/// Orders of the planes of a box, counted downwind: the one that a fixed point sees first.
-enum class PlaneOrder : std::uint8_t {
-    last_first,  ///< the one furthest downwind, as the wind carries the box: what is higher leads in time
-    first_first  ///< mirrored in time, as OpenFAST's InflowWind reads boxes: what is higher lags; spectra are the same
-};
-
 /// Aims that a box is scaled to: one factor for all of it, so that it stays without divergence and keeps the model's
 /// ratios.
 enum class MannScaling : std::uint8_t {

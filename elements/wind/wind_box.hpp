@@ -71,6 +71,13 @@ enum class OutsideBox : std::uint8_t {
 };
 const char* name_of(OutsideBox outside);
 
+/// Orders of the planes of a box that is counted downwind: the one that a fixed point sees first. Spectra and coherence
+/// are the same, the sign of the phase over the height is not.
+enum class PlaneOrder : std::uint8_t {
+    last_first,  ///< the one furthest downwind, as the wind carries the box: what is higher leads in time
+    first_first  ///< mirrored in time, as InflowWind of OpenFAST reads boxes: what is higher lags
+};
+
 /// The origin of a box, for results.
 struct BoxOrigin {
     std::vector<std::string> files;  ///< whose bytes the numbers are, as they were given; empty: made in memory

@@ -63,7 +63,7 @@ int replace(const char* name, std::string_view bytes, WindBoxFile (*read)()) {
 int three_files(const std::uint8_t* data, std::size_t size) {
     if (size < 4) return 0;
     Hawc2Box box = hawc2_box(data[0], data[1], data[2]);
-    box.order = data[3] % 2 == 0 ? PlaneOrder::first_plane_first : PlaneOrder::last_plane_first;
+    box.order = data[3] % 2 == 0 ? PlaneOrder::first_first : PlaneOrder::last_first;
     box.scaling = static_cast<BoxScaling>(data[3] / 2 % 3);
     const std::size_t each = (size - 4) / 3;
     for (std::size_t c = 0; c < 3; ++c) fuzz::write(box.files[c], fuzz::text_of(data + 4 + c * each, each));

@@ -53,7 +53,7 @@ void look_through(const MappedFile& file, BoxSources& sources) {
 
 BoxNumbers hawc2_component(const Hawc2Box& given, const MappedFile& file, int number) {
     const std::ptrdiff_t row = 1, column = given.rows, plane = column * given.columns;
-    const bool last_first = given.order == PlaneOrder::last_plane_first;
+    const bool last_first = given.order == PlaneOrder::last_first;
     const std::ptrdiff_t first = (given.columns - 1) * column + (last_first ? (given.planes - 1) * plane : 0);
     BoxNumbers out =
         numbers_in(file, number, BoxNumbers::Type::float32, static_cast<std::size_t>(first) * sizeof(float));

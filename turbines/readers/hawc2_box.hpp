@@ -22,7 +22,7 @@ struct Hawc2Box {
     std::array<std::filesystem::path, 3> files;                     ///< u, v, w
     int planes = 0, rows = 0, columns = 0;                          ///< along the wind, upward, across
     double plane_spacing = 0, row_spacing = 0, column_spacing = 0;  ///< m
-    PlaneOrder order = PlaneOrder::first_plane_first;
+    PlaneOrder order = PlaneOrder::first_first;
     BoxScaling scaling = BoxScaling::none;
     std::array<double, 3> factors = {1, 1, 1};
     std::array<double, 3> deviations = {};  ///< m/s

@@ -24,7 +24,7 @@ struct InflowWindFile {
 /// @param order    of the planes of HAWC2's boxes; InflowWind begins with the first
 /// @throws ParseError, FileError
 InflowWindFile read_inflow_wind(const std::filesystem::path& path, double density = 1.225,
-                                PlaneOrder order = PlaneOrder::first_plane_first);
+                                PlaneOrder order = PlaneOrder::first_first);
 
 /// A CSV table with time[s],speed[m/s] and, where they are not zero, direction[deg] (to the left), upflow[deg],
 /// exponent[-] of the power law, gradient[1/m] over the height, lateral[1/m], gust[m/s], vertical[m/s].

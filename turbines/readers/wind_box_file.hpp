@@ -23,11 +23,6 @@ struct WindBoxFile {
     std::vector<FileNote> notes = {};
 };
 
-/// Orders in which the planes of a box meet the machine. The planes of a Mann box count downwind, so that the last one
-/// leads; InflowWind begins with the first. Spectra and coherence are the same, the sign of the phase over the height
-/// is not.
-enum class PlaneOrder : std::uint8_t { first_plane_first, last_plane_first };
-
 /// Reads a file by what it begins with: TurbSim's .bts (read_turbsim_box()), a .wnd of Bladed's kind with its .sum
 /// beside it (read_bladed_box()), or the text that names a .wnd of Bladed itself (read_native_bladed_box()).
 /// @throws FileError, ParseError

@@ -52,7 +52,7 @@ struct MainFile {
 class WindFolder : public test::ModelFolder {
 public:
     WindFolder() : ModelFolder("wind") {}
-    [[nodiscard]] InflowWindFile read(const MainFile& main, PlaneOrder order = PlaneOrder::first_plane_first) const {
+    [[nodiscard]] InflowWindFile read(const MainFile& main, PlaneOrder order = PlaneOrder::first_first) const {
         write("wind.dat", main.text());
         return read_inflow_wind(*this / "wind.dat", 1.2, order);
     }
@@ -113,7 +113,7 @@ TEST_CASE("inflow wind: factors, the order of the planes, what boxes do not have
     const WindFolder folder;
     const MainFile main{.type = 5, .scaling = "1", .mean = "0"};
     const InflowWindFile scaled = folder.read(main), as_is = folder.read({.type = 5, .mean = "0"}),
-                         last = folder.read({.type = 5, .mean = "0"}, PlaneOrder::last_plane_first);
+                         last = folder.read({.type = 5, .mean = "0"}, PlaneOrder::last_first);
     const WindBox &box = *scaled.wind.box(), &raw = *as_is.wind.box(), &reversed = *last.wind.box();
     CHECK(scaled.wind.rows().front().shear == Shear::none);
     for (int t = 0; t < 16; ++t)
