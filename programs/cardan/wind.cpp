@@ -16,6 +16,8 @@
 #include "turbines/analysis/rotor_size.hpp"
 #include "turbines/machine/built_in.hpp"
 #include "turbines/machine/read_machine.hpp"
+#include "turbines/machine/result.hpp"
+#include "turbines/machine/wind_text.hpp"
 #include "turbines/readers/inflow_wind.hpp"
 #include "turbines/readers/wind_box_file.hpp"
 
@@ -47,10 +49,10 @@ struct WindCommandArguments {
 };
 
 void declare(CommandLine& app, WindCommandArguments& a) {
-    app.add_option(
-        "what", a.what,
-        "with --speed or --turbulence ewm1, ewm50: a machine, for which turbulence is made (none: "
-        "--hub-height and --diameter say what for); else a turbulent wind: .bts, .wnd, InflowWind's main file");
+    app.add_option("what", a.what,
+                   "with --speed or --turbulence ewm1, ewm50: a machine, for which turbulence is made (none: "
+                   "--hub-height and --diameter say what for); else a turbulent wind: .bts, .wnd, InflowWind's main "
+                   "file, or a result (.h5) in one");
     app.add_option("--hub-height", a.hub_height, "m (default: the machine's, or the file's)").positive();
     app.add_option("--diameter", a.diameter, "of the rotor, m (default: the machine's)").positive();
     app.add_option("--rpm", a.rpm, "rotor speed, for what a turning blade sees, rev/min (default: the machine's)")
@@ -267,7 +269,16 @@ int make(const WindCommandArguments& a, const std::string& out) {
     return 0;
 }
 
+turbines::WindBoxFile turbulence_of(const Wind& wind, const std::string& path) {
+    if (wind.box() == nullptr) throw InputError(path, "wind", "without turbulence", "a turbulent wind");
+    return {.box = std::make_shared<const WindBox>(*wind.box()), .mean = wind.rows().front()};
+}
+
 turbines::WindBoxFile wind_to_look_at(const std::string& path) {
+    if (turbines::is_result(path)) {
+        const std::optional<Wind> wind = turbines::wind_of(turbines::input_description(path), path);
+        return turbulence_of(wind.value_or(SteadyWind{}), path);
+    }
     if (turbines::is_wind_box(path)) {
         turbines::WindBoxFile file = turbines::read_wind_box(path);
         print_notes(file.notes, false);
@@ -275,8 +286,7 @@ turbines::WindBoxFile wind_to_look_at(const std::string& path) {
     }
     turbines::InflowWindFile file = turbines::read_inflow_wind(path);
     print_notes(file.notes, false);
-    if (file.wind.box() == nullptr) throw InputError(path, "wind", "without turbulence", "a turbulent wind");
-    return {.box = std::make_shared<const WindBox>(*file.wind.box()), .mean = file.wind.rows().front()};
+    return turbulence_of(file.wind, path);
 }
 
 // A machine without a speed is a slip of its own.
@@ -284,7 +294,7 @@ void require_wind_file(const std::string& what) {
     const auto machines = turbines::built_in_machines();
     const std::string ending = lower_case(std::filesystem::path(what).extension().string());
     if (what.empty() || std::ranges::find(machines, what, &turbines::BuiltInMachine::name) != machines.end() ||
-        ending == ".fst" || ending == ".yaml" || ending == ".yml" || ending == ".h5")
+        ending == ".fst" || ending == ".yaml" || ending == ".yml")
         throw InputError(text(what.empty() ? "cardan wind" : what,
                               ": --speed is needed to make turbulence for a machine; a file with a wind is looked at "
                               "without"));

@@ -83,6 +83,8 @@ Machine read_file(const std::filesystem::path& path, const std::vector<ModelAddi
         return machine;
     }
     refuse(additions);
+    if (const std::string ending = lower_case(path.extension().string()); ending == ".bts" || ending == ".wnd")
+        throw FileError(path.string(), "is a wind and no machine (cardan wind looks at it)");
     if (is_yaml(path)) return parse_machine(text_file(path), path.string());
     if (is_result(path)) return parse_machine(machine_text(input_description(path), path.string()), path.string());
     Machine machine = machine_of(read_openfast(path));
