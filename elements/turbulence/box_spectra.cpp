@@ -20,10 +20,6 @@ void require_index(const char* what, int index, int count) {
     if (index < 0 || index >= count) throw InputError("wind box", what, index, text("0 ... ", count - 1));
 }
 
-int nearest(double at, int count) {
-    return static_cast<int>(std::lround(std::clamp(at, 0.0, count - 1.0)));
-}
-
 // At most so many of them, evenly spaced.
 std::vector<int> some_rows(int rows, int most) {
     const int count = std::min(rows, most);
@@ -57,14 +53,6 @@ TimeSeries series_at(const WindBox& box, int component, int row, int column) {
     out.values.reserve(static_cast<std::size_t>(grid.steps));
     for (int t = 0; t < grid.steps; ++t) out.values.push_back(box.at_point(t, row, column)[component]);
     return out;
-}
-
-int row_near(const BoxGrid& grid, double height) {
-    return nearest((height - grid.lowest) / grid.row_spacing, grid.rows);
-}
-
-int column_near(const BoxGrid& grid, double y) {
-    return nearest((y + grid.width() / 2) / grid.column_spacing, grid.columns);
 }
 
 std::vector<Coherence> coherences_across(const WindBox& box, int component, std::span<const int> columns_apart,

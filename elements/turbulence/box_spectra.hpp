@@ -18,11 +18,6 @@ namespace cardan {
 /// @throws InputError for a component, a row, a column that there is not
 TimeSeries series_at(const WindBox& box, int component, int row, int column);
 
-/// The row of the grid next to a height, m.
-int row_near(const BoxGrid& grid, double height);
-/// The column of the grid next to a place across the wind, m to the left of the middle.
-int column_near(const BoxGrid& grid, double y);
-
 /// Choices of the points whose coherence is averaged.
 struct CoherenceOptions {
     int per_decade = 8;  ///< bands
@@ -51,8 +46,8 @@ struct TurningPoint {
     Vec3 place(double time) const;
 };
 
-/// The series that a turning point sees of a component in axes that do not turn (rotational sampling), m/s, from t = 0 over the
-/// length of the box.
+/// The series that a turning point sees of a component in axes that do not turn (rotational sampling), m/s, from t = 0
+/// over the length of the box.
 /// @param step  s; 0: that of the box
 /// @throws InputError for a circle that leaves the grid, unless OutsideBox says what is there, and for numbers out of
 /// range

@@ -13,6 +13,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace cardan {
@@ -173,6 +174,14 @@ BoxGrid rotor_grid(double hub_height, double rotor_diameter, const RotorGridOpti
         throw InputError(where, "height [m]", height,
                          text("at least ", rotor_diameter, ", the rotor's diameter, and below ", 2 * hub_height,
                               ", at which the lowest points would be on the ground"));
+    constexpr double finest = 0.01;  // m, far below the diameter of any eddy that a rotor feels
+    if (height / (options.rows - 1) < finest || width / (options.columns - 1) < finest)
+        throw InputError(where, "spacing of the points [m]",
+                         std::min(height / (options.rows - 1), width / (options.columns - 1)),
+                         text("at least ", finest));
+    if (options.time_step > options.duration / 2)
+        throw InputError(where, "time between planes [s]", options.time_step,
+                         text("at most half of the duration, ", options.duration / 2));
     return {.steps = steps_of(options.duration, options.time_step),
             .rows = options.rows,
             .columns = options.columns,
@@ -185,6 +194,9 @@ BoxGrid rotor_grid(double hub_height, double rotor_diameter, const RotorGridOpti
 void TurbulenceRequest::check() const {
     require_positive(request_place, "mean wind speed [m/s]", speed);
     require_positive(request_place, "standard deviation [m/s]", deviation);
+    for (const auto& [what, value, max] :
+         {std::tuple("mean wind speed [m/s]", speed, 200.0), {"standard deviation [m/s]", deviation, 100.0}})
+        if (value > max) throw InputError(request_place, what, value, text("up to ", max));
     require_positive(request_place, "hub height [m]", hub_height);
     if (!(std::abs(exponent) <= 1)) throw InputError(request_place, "exponent of the shear", exponent, "-1 ... 1");
 }

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -45,6 +46,10 @@ struct BoxGrid {
     double width() const { return (columns - 1) * column_spacing; }
     double height() const { return (rows - 1) * row_spacing; }
     double duration() const { return steps * time_step; }  ///< of a periodic box, s
+    double height_of(int row) const { return lowest + row * row_spacing; }
+    double place_of(int column) const { return column * column_spacing - width() / 2; }  ///< to the left, m
+    int row_near(double height) const;  ///< the lower one of two that are as near
+    int column_near(double y) const;    ///< likewise the right one
     friend bool operator==(const BoxGrid&, const BoxGrid&) = default;
 };
 
@@ -99,6 +104,8 @@ struct WindBoxData {
     OutsideBox outside = OutsideBox::refuse;
     BoxOrigin origin = {};
     std::shared_ptr<const void> memory = {};  ///< keeps the numbers alive
+    /// Throws FileError if the files have changed since they were read; none: there is nothing that could.
+    std::function<void()> require_unchanged = {};
 };
 
 /// Wind of a box at places and times. Immutable, may be used by several threads.
@@ -119,6 +126,10 @@ public:
     Sample with_gradient(const Vec3& place, double time) const;
 
     const WindBoxData& data() const { return data_; }
+    /// Checks that the files are those that were read, for work that takes long.  @throws FileError if they are not
+    void require_unchanged() const {
+        if (data_.require_unchanged) data_.require_unchanged();
+    }
     const BoxGrid& grid() const { return data_.grid; }
     /// Velocity at a point of the grid, m/s.
     Vec3 at_point(int step, int row, int column) const;

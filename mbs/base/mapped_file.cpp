@@ -62,4 +62,11 @@ void MappedFile::require_whole() const {
                              " when it was opened: another program changes it; read it again when that is done"));
 }
 
+std::int64_t MappedFile::written() const {
+    struct stat status {};
+    if (::fstat(fd_, &status) != 0) throw FileError(path_, text("cannot be read any more: ", reason_of(errno)));
+    constexpr std::int64_t nanoseconds = 1'000'000'000;
+    return static_cast<std::int64_t>(status.st_mtim.tv_sec) * nanoseconds + status.st_mtim.tv_nsec;
+}
+
 }  // namespace cardan

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -30,6 +31,9 @@ public:
     [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
     /// Checks that the file is still as long as it was.  @throws FileError if it is not
     void require_whole() const;
+    /// The time when the file was written last, ns: another one says that it may have changed in place.
+    /// @throws FileError
+    [[nodiscard]] std::int64_t written() const;
 
 private:
     std::string path_;

@@ -49,6 +49,8 @@ std::string mebibytes(std::size_t bytes) {
 std::string text_file(const std::filesystem::path& path) {
     if (std::error_code code; std::filesystem::is_directory(path, code))
         throw FileError(path.string(), "is a folder, not a file");
+    if (std::error_code code; std::filesystem::is_fifo(path, code))  // which may keep one waiting for ever
+        throw FileError(path.string(), "is a pipe, not an ordinary file");
     errno = 0;
     std::ifstream in;
     in.imbue(std::locale::classic());

@@ -69,7 +69,12 @@ void take_air(turbines::Machine& machine, const AirArguments& arguments, Machine
 
 turbines::WindSource wind_source(const std::string& given) {
     if (given == "none") return turbines::WindSource::none();
-    if (std::filesystem::exists(given)) return std::filesystem::path(given);
+    // A number or a name is what it says, whatever files there are of that name: ./12 is one.
+    if (read_number(given).good()) {
+        const double speed = number("--wind", given, given, wind_file_format);
+        require_not_negative("--wind", "value [m/s]", speed);
+        return speed;
+    }
     if (!given.empty() && std::isalpha(static_cast<unsigned char>(given.front())) != 0 &&
         (given.find(':') != std::string::npos || lower_case(given).starts_with("ewm"))) {
         try {
@@ -78,6 +83,7 @@ turbines::WindSource wind_source(const std::string& given) {
             throw InputError(text("--wind: ", error.what()));
         }
     }
+    if (std::filesystem::exists(given)) return std::filesystem::path(given);
     const double speed = number("--wind", given, given, wind_file_format);
     require_not_negative("--wind", "value [m/s]", speed);
     return speed;

@@ -71,7 +71,7 @@ std::string frequency_axis(const BoxGrid& grid) {
 
 std::pair<int, int> hub_point(const BoxView& view) {
     const BoxGrid& grid = view.box->grid();
-    return {row_near(grid, view.hub_height), column_near(grid, 0)};
+    return {grid.row_near(view.hub_height), grid.column_near(0)};
 }
 
 double mean_at(const BoxView& view, double height) {
@@ -174,7 +174,7 @@ std::string height_panel(const BoxView& view) {
     std::vector<double> heights, means, low, high;
     for (int row = 0; row < grid.rows; ++row) {
         const double z = grid.lowest + row * grid.row_spacing;
-        const WindBox::Statistics u = view.box->statistics(row, column_near(grid, 0));
+        const WindBox::Statistics u = view.box->statistics(row, grid.column_near(0));
         heights.push_back(z);
         means.push_back(u.mean[0] + mean_at(view, z));
         low.push_back(means.back() - u.deviation[0]);
@@ -286,12 +286,19 @@ void print_box(const BoxView& view) {
     if (!data.origin.checksum.empty()) std::printf("checksum      %s\n", data.origin.checksum.c_str());
     if (!data.origin.note.empty()) std::printf("note          %s\n", data.origin.note.c_str());
     std::printf("\n%-34s %9s %9s %9s\n", "m/s", "u", "v", "w");
-    print_velocities(text("mean at the hub, ", rounded(view.hub_height), " m"),
-                     hub.mean + Vec3(mean_at(view, view.hub_height), 0, 0));
+    const double height = grid.height_of(row), left = grid.place_of(column);
+    const bool at_hub = std::abs(height - view.hub_height) < 1e-3 * grid.row_spacing && std::abs(left) < 1e-3;
+    print_velocities(at_hub ? text("mean at the hub, ", rounded(view.hub_height), " m")
+                            : text("mean next to the hub, ", rounded(height), " m, y ", rounded(left), " m"),
+                     hub.mean + Vec3(mean_at(view, height), 0, 0));
     print_velocities("standard deviation there", hub.deviation);
 }
 
 bool draw_box(const BoxView& view, const std::filesystem::path& path) {
+    const auto [row, column] = hub_point(view);
+    if (const double u = view.box->statistics(row, column).deviation.x(); !(u > 1e-6))
+        throw InputError(view.title, "standard deviation of u at the hub [m/s]", u,
+                         "above 1e-6 for pictures; --no-picture draws none");
     const auto cancelled = [&] { return view.cancelled && view.cancelled(); };
     // The heading belongs to the first panel, as the others begin without labels.
     std::string first = time_panel(view);

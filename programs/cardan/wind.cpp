@@ -223,7 +223,7 @@ void set_target(BoxView& view) {
     }
     const BoxGrid& grid = view.box->grid();
     const Vec3 deviation =
-        view.box->statistics(row_near(grid, view.hub_height), column_near(grid, 0)).deviation.cwiseMax(1e-6);
+        view.box->statistics(grid.row_near(view.hub_height), grid.column_near(0)).deviation.cwiseMax(1e-6);
     Kaimal model = kaimal_turbulence(view.box->data().speed, deviation[0], view.hub_height);
     model.deviation = deviation;
     view.target = {model, view.box->data().speed};
@@ -235,6 +235,19 @@ bool draw(const BoxView& view, const std::string& path) {
     const bool drawn = draw_box(view, path);
     end_progress();
     return drawn;
+}
+
+// A box of Mann's tensor is scaled as a whole by what it lacks of u, whose eddies are the longest.
+void warn_of_short_box(const TurbulenceRequest& request, const Vec3& expected) {
+    constexpr double bearable = 1.2;
+    if (request.model != TurbulenceModel::mann) return;
+    const Vec3 target = target_of(request).deviations();
+    const double excess = std::max(expected.y() / target.y(), expected.z() / target.z());
+    if (excess > bearable)
+        std::printf(
+            "warning: the box is short for the long eddies of u; scaled to u, v and w are up to %.1f times as "
+            "large as asked for: make it longer\n",
+            excess);
 }
 
 int make(const WindCommandArguments& a, const std::string& out) {
@@ -259,6 +272,7 @@ int make(const WindCommandArguments& a, const std::string& out) {
     print_box(view);
     print_velocities("  asked for, of infinite time", target_of(request).deviations());
     if (!request.scaled) print_velocities("  expected of all seeds in this box", made.expected);
+    warn_of_short_box(request, made.expected);
     set_target(view);
     std::string files = out + ".bts";
     if (!a.no_picture) {

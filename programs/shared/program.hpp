@@ -56,6 +56,15 @@ inline void ask_to_stop(int signal) {
     static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
 }
 
+/// A file that is mapped, as wind boxes are, was shortened by another program: nothing can go on; a result is as after
+/// a kill.
+inline void end_of_mapped_file(int /*signal*/) {
+    constexpr std::string_view words =
+        "\nerror: a file that is being read, such as a wind box, was shortened by another program\n";
+    static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
+    _exit(1);
+}
+
 /// Files that cannot be written are noticed before the work, not after it, and what a killed run has left
 /// behind is named and removed.
 /// @param sources  what is read, the machine's file for one, which is not replaced
@@ -119,6 +128,7 @@ int with_errors(const char* name, const Body& body) {
 template <class Body>
 int working(const char* name, const Body& body) {
     handle_signals(ask_to_stop);
+    std::signal(SIGBUS, end_of_mapped_file);
     std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error as a full disk is
     const LongWork reported(name);
     return with_memory("this run; fewer elements, times or speeds need less", body);

@@ -9,8 +9,6 @@
 #include "turbines/readers/inflow_wind.hpp"
 #include "turbines/readers/wind_box_file.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace cardan::turbines {
@@ -28,16 +26,7 @@ void report_notes(const Report& report, const std::filesystem::path& path, std::
 
 // The box that a file is by itself, or what InflowWind's main file says.
 Wind inflow_of_file(const std::filesystem::path& path, const WindSite& site, const Report& report) {
-    const std::string extension = lower_case(path.extension().string());
-    if (extension == ".bin")
-        throw FileError(path.string(),
-                        "is one of three files of HAWC2's kind; InflowWind's main file (WindType 5) has "
-                        "their names and sizes");
     if (!is_wind_box(path)) {
-        if (extension == ".wnd")
-            throw FileError(path.string(),
-                            "is a table of uniform winds; InflowWind's main file (WindType 2) has its "
-                            "reference height and length");
         InflowWindFile read = read_inflow_wind(path, site.profile.density);
         report_notes(report, path, std::move(read.notes));
         return read.wind;
@@ -116,9 +105,7 @@ namespace {
 
 // The point of a box next to the reference height, in the middle.
 WindBox::Statistics at_hub(const WindBox& box, double height) {
-    const BoxGrid& grid = box.grid();
-    const double row = std::round((height - grid.lowest) / grid.row_spacing);
-    return box.statistics(std::clamp(static_cast<int>(row), 0, grid.rows - 1), grid.columns / 2);
+    return box.statistics(box.grid().row_near(height), box.grid().column_near(0));
 }
 
 std::string in_words(const WindBox& box, double height) {

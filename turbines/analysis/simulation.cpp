@@ -127,6 +127,7 @@ Recording Simulation::Parts::record(const RecordSettings& o, solvers::HistoryRec
     times.erase(times.begin(), std::ranges::lower_bound(times, integrator->time()));
     const solvers::Advance end =
         solvers::record(*integrator, *recorder, times, [&](double time, const std::vector<double>& values) {
+            if (model->check_wind) model->check_wind();
             if (into.append(time, values) && o.progress) o.progress(time);
         });
     require_result(end);

@@ -191,7 +191,7 @@ WindBoxFile read_bladed_box(const std::filesystem::path& path, TowerFile tower) 
     box.periodic = summary.periodic;
     box.start = box.periodic ? 0 : box.grid.width() / 2;
     box.origin = sources.origin("Bladed .wnd with .sum");
-    box.memory = sources.memory();
+    sources.keep_in(box);
     out.box = std::make_shared<const WindBox>(std::move(box));
     out.mean.reference_height = summary.hub_height;
     return out;

@@ -126,7 +126,7 @@ WindBoxFile read_hawc2_box(const Hawc2Box& given) {
     scale_as_given(given, box);
     if (given.scaling != BoxScaling::none) box.means = means_of(box);
     box.origin = sources.origin("HAWC2 .bin");
-    box.memory = sources.memory();
+    sources.keep_in(box);
     WindBoxFile out;
     out.box = std::make_shared<const WindBox>(std::move(box));
     out.mean = given.mean;

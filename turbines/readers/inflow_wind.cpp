@@ -1,6 +1,7 @@
 #include "turbines/readers/inflow_wind.hpp"
 
 #include "mbs/base/error.hpp"
+#include "mbs/base/text.hpp"
 #include "mbs/base/text_file.hpp"
 #include "mbs/base/units.hpp"
 #include "turbines/readers/detail/inflow_wind_boxes.hpp"
@@ -131,7 +132,25 @@ InflowWindType type_of(OpenFastFile& file) {
 
 }  // namespace
 
+namespace {
+
+// Files that its main file names.
+void require_main_file(const std::filesystem::path& path) {
+    const std::string extension = lower_case(path.extension().string());
+    if (extension == ".bin")
+        throw FileError(path.string(),
+                        "is one of three files of HAWC2's kind; InflowWind's main file (WindType 5) has "
+                        "their names and sizes");
+    if (extension == ".wnd")
+        throw FileError(path.string(),
+                        "is a table of uniform winds; InflowWind's main file (WindType 2) has its "
+                        "reference height and length");
+}
+
+}  // namespace
+
 InflowWindFile read_inflow_wind(const std::filesystem::path& path, double density, PlaneOrder order) {
+    require_main_file(path);
     OpenFastFile file = OpenFastFile::read(path);
     InflowWindFile out;
     double direction = -file.number("PropagationDir") * units::degree,

@@ -163,7 +163,7 @@ WindBoxFile read_native_bladed_box(const std::filesystem::path& path) {
     box.start = in.number_or_zero("XOffset", -1e9, 1e9);
     box.below = BelowBox::to_ground;
     box.origin = sources.origin("Bladed .wnd");
-    box.memory = sources.memory();
+    sources.keep_in(box);
     out.box = std::make_shared<const WindBox>(std::move(box));
     out.notes = in.notes();
     return out;

@@ -105,7 +105,7 @@ WindBoxFile read_turbsim_box(const std::filesystem::path& path) {
     box.periodic = header.periodic;
     box.start = header.periodic ? 0 : grid.width() / 2;
     box.origin = sources.origin("TurbSim .bts", header.note);
-    box.memory = sources.memory();
+    sources.keep_in(box);
 
     WindBoxFile out;
     out.box = std::make_shared<const WindBox>(std::move(box));

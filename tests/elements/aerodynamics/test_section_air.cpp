@@ -139,14 +139,14 @@ TEST_CASE("wind: at many places it is that at each", "[discrete]") {
     Random random(13);
     for (const Shear shear : {Shear::none, Shear::power, Shear::logarithmic}) {
         const SteadyWindAtPlaces wind(SteadyWind{.speed = 9,
-                                           .shear = shear,
-                                           .exponent = 0.2,
-                                           .roughness = 0.03,
-                                           .gradient = 1e-3,
-                                           .direction = 0.1,
-                                           .veer = 1e-3,
-                                           .upflow = 0.05,
-                                           .lateral = 2e-3});
+                                                 .shear = shear,
+                                                 .exponent = 0.2,
+                                                 .roughness = 0.03,
+                                                 .gradient = 1e-3,
+                                                 .direction = 0.1,
+                                                 .veer = 1e-3,
+                                                 .upflow = 0.05,
+                                                 .lateral = 2e-3});
         std::vector<Vec3> places, found(75);
         for (std::size_t i = 0; i < found.size(); ++i)
             places.emplace_back(random_vector(random, 60) + Vec3(0, 0, i % 10 == 0 ? -100 : 90));

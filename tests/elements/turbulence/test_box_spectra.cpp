@@ -151,10 +151,10 @@ TEST_CASE("box spectra: points, rows and columns, and the coherence of what is t
     CHECK(v.periodic);
     CHECK(v.values.size() == 240);
     CHECK(v.values[8] == Approx(2 * (std::sin(2 * pi * 0.2 + 90) + 9)).epsilon(1e-6));
-    CHECK(row_near(grid, 90) == 2);
-    CHECK(row_near(grid, 1000) == 4);
-    CHECK(column_near(grid, 0) == 3);
-    CHECK(column_near(grid, -49) == 1);
+    CHECK(grid.row_near(90) == 2);
+    CHECK(grid.row_near(1000) == 4);
+    CHECK(grid.column_near(0) == 3);
+    CHECK(grid.column_near(-49) == 1);
     CHECK(power_spectrum(spectrum_lines(v)).variance() ==
           Approx(box.statistics(2, 5).deviation[1] * box.statistics(2, 5).deviation[1]));
 

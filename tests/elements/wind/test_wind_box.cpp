@@ -1,13 +1,17 @@
 // Winds from boxes: linear fields come out exactly, with their gradients; edges, the ground and turned axes.
+#include "elements/wind/box_files.hpp"
 #include "elements/wind/wind.hpp"
-#include "tests/support/refusal.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/random_tree.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <numeric>
@@ -85,15 +89,15 @@ TEST_CASE("wind box: numbers as they lie, of either type, backwards and scaled, 
     };
     WindBoxData whole = box_of<std::int16_t>(small_grid, number);
     for (BoxNumbers& of : whole.components) {
-        of.scale = 0.25;
+        of.scale = 0.03125;
         of.offset = 3;
     }
     const WindBox by_integers(whole), by_floats(box_of<float>(small_grid, [&](int c, int t, int k, int j) {
-        return 3 + 0.25F * static_cast<float>(number(c, t, k, j));
+        return 3 + 0.03125F * static_cast<float>(number(c, t, k, j));
     }));
     // Turned about in memory: planes, rows and columns run backwards.
     WindBoxData backwards = box_of<float>(small_grid, [&](int c, int t, int k, int j) {
-        return 3 + 0.25F * static_cast<float>(number(c, 7 - t, 3 - k, 4 - j));
+        return 3 + 0.03125F * static_cast<float>(number(c, 7 - t, 3 - k, 4 - j));
     });
     for (BoxNumbers& of : backwards.components) {
         of.data = static_cast<const float*>(of.data) + 7 * of.step + 3 * of.row + 4 * of.column;
@@ -192,6 +196,31 @@ TEST_CASE("wind box: outside it refuses, holds or repeats, and never is silently
     CHECK(repeated.at({0, 1, 90}, 1) == box.at({0, 1, 50}, 1));
 }
 
+TEST_CASE("wind box: of two points that are as near the lower right one is taken", "[analytic]") {
+    CHECK(small_grid.row_near(35) == 1);
+    CHECK(small_grid.row_near(35.1) == 2);
+    CHECK(small_grid.row_near(-9) == 0);
+    CHECK(small_grid.row_near(99) == 3);
+    CHECK(small_grid.column_near(0) == 2);
+    CHECK(small_grid.column_near(4) == 2);
+    CHECK(small_grid.column_near(-4) == 1);
+    CHECK(small_grid.height_of(small_grid.row_near(42)) == 40);
+    CHECK(small_grid.place_of(small_grid.column_near(15)) == 16);
+}
+
+TEST_CASE("wind box: a file that is written to, or shortened, is found out", "[property]") {
+    const std::filesystem::path path = std::filesystem::path(CARDAN_TEST_OUTPUT_DIR) / "changing.bin";
+    const auto write = [&](std::size_t bytes) { std::ofstream(path, std::ios::binary) << std::string(bytes, 'a'); };
+    write(100);
+    const auto guard = change_guard({std::make_shared<const MappedFile>(path)});
+    CHECK_NOTHROW(guard());
+    write(99);
+    CHECK_THROWS_WITH(guard(), Catch::Contains("changing.bin") && Catch::Contains("has now 99 bytes"));
+    write(100);
+    std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(2));
+    CHECK_THROWS_WITH(guard(), Catch::Contains("was written to while a run was in it"));
+}
+
 TEST_CASE("wind box: grids and numbers that cannot be are refused", "[bad input]") {
     const auto refused = [](const std::function<void(WindBoxData&)>& change, const char* words) {
         WindBoxData data = random_box(8);
@@ -207,6 +236,11 @@ TEST_CASE("wind box: grids and numbers that cannot be are refused", "[bad input]
     refused([](WindBoxData& d) { d.means.resize(3); }, "number of means = 3");
     refused([](WindBoxData& d) { d.components[1].data = nullptr; }, "numbers = none");
     refused([](WindBoxData& d) { d.below = BelowBox::tower; }, "points of the tower = none");
+    refused(
+        [](WindBoxData& d) {
+            for (BoxNumbers& of : d.components) of.type = BoxNumbers::Type::int16;
+        },
+        "by its scale and offset [m/s] = 32768; allowed: up to 2000");
 }
 
 TEST_CASE("wind with a box: steady wind and box are added; turned axes turn both and the places", "[analytic]") {

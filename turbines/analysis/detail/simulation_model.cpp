@@ -149,7 +149,10 @@ SimulationModel simulation_model(const Machine& machine, const SimulationSetting
         o.controller.acts() ? controlled(o, pair, driving, wind, report) : uncontrolled(o, pair, driving, law);
     model.channels.insert(model.channels.end(), wind.begin(), wind.end());
     add_rotor_torque(o.rotor_torque, model);
-    if (air) model.wind = to_yaml(air->wind());
+    if (air) {
+        model.wind = to_yaml(air->wind());
+        if (air->wind().box() != nullptr) model.check_wind = air->wind().box()->data().require_unchanged;
+    }
     return model;
 }
 

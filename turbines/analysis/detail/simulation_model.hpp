@@ -18,6 +18,7 @@ struct SimulationModel {
     std::vector<solvers::SampledController> controllers = {};
     std::vector<ChannelGroup> channels = {};  ///< beside those of any machine
     std::string wind = {};                    ///< as text, for the file of the run
+    std::function<void()> check_wind = {};    ///< throws FileError where the files of the wind have changed
 };
 /// @param machine  with_settings(), with its pitch drives
 /// @param options  with rotor speed, pitch, wind and azimuth: take_run()

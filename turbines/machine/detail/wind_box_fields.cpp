@@ -1,5 +1,6 @@
 #include "turbines/machine/detail/wind_box_fields.hpp"
 
+#include "elements/wind/box_files.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/mapped_file.hpp"
 
@@ -24,9 +25,6 @@ std::vector<double> list_of(const BoxNumbers& of) {
             of.offset};
 }
 
-// What keeps the files of a box mapped.
-using Files = std::vector<std::shared_ptr<const MappedFile>>;
-
 // In whole numbers as far as a double counts them.
 std::int64_t whole(double value) {
     constexpr double max = 9e15;
@@ -41,7 +39,7 @@ void stretch(std::pair<double, double>& reach, double stride, int count) {
     (far < 0 ? reach.first : reach.second) += far;
 }
 
-BoxNumbers numbers_of(const std::vector<double>& list, BoxNumbers::Type type, const Files& files,
+BoxNumbers numbers_of(const std::vector<double>& list, BoxNumbers::Type type, const BoxFiles& files,
                       const std::array<int, 3>& counts) {
     if (list.size() != numbers_of_component)
         throw InputError("wind box", "numbers of a component", list.size(), text(numbers_of_component));
@@ -74,7 +72,7 @@ std::filesystem::path found(const std::filesystem::path& path, const std::filesy
     return std::filesystem::exists(other, none) ? other : path;
 }
 
-void require_checksum(const Files& files, const std::string& checksum) {
+void require_checksum(const BoxFiles& files, const std::string& checksum) {
     std::uint64_t sum = checksum_of({});
     std::string all;
     for (const auto& file : files) {
@@ -123,7 +121,7 @@ std::shared_ptr<const WindBox> wind_box_of(const WindBoxFields& f, const std::fi
     if (f.files.empty())
         throw InputError("wind box", "files", "none: the box of the run was made in memory",
                          "a box that is a file: write_turbsim() makes one");
-    const auto files = std::make_shared<Files>();
+    const auto files = std::make_shared<BoxFiles>();
     for (const std::string& path : f.files) files->push_back(std::make_shared<const MappedFile>(found(path, beside)));
     require_checksum(*files, f.checksum);
     WindBoxData data{.grid = f.grid,
@@ -135,7 +133,8 @@ std::shared_ptr<const WindBox> wind_box_of(const WindBoxFields& f, const std::fi
                      .below = f.below,
                      .outside = f.outside,
                      .origin = {f.files, f.format, f.checksum, f.note},
-                     .memory = files};
+                     .memory = files,
+                     .require_unchanged = change_guard(*files)};
     const std::array<int, 3> counts{f.grid.steps, f.grid.rows, f.grid.columns};
     const auto component = [&](const std::vector<double>& list) { return numbers_of(list, f.type, *files, counts); };
     data.components = {component(f.u), component(f.v), component(f.w)};

@@ -43,7 +43,7 @@ inline constexpr int max_in_box = 1 << 30;  // planes, points: of a file that is
 
 template <class Archive, class Fields>
 void wind_box_fields(Archive& archive, Fields& f) {
-    archive.counted_groups("files", f.files, [&](auto& file) { archive.word("path", file); });
+    archive.counted_groups("files", f.files, [&](auto& file) { archive.word("wind_file", file); });
     archive.word("format", f.format);
     archive.word("checksum", f.checksum);
     archive.word("note", f.note);

@@ -71,16 +71,21 @@ std::string printable(std::string_view text) {
 }
 
 const MappedFile& BoxSources::map(const std::filesystem::path& path) {
-    files_->push_back(std::make_unique<const MappedFile>(path));
+    files_.push_back(std::make_shared<const MappedFile>(path));
     name(path);
-    return *files_->back();
+    return *files_.back();
 }
 
 void BoxSources::sum() {
-    const MappedFile& file = *files_->back();
+    const MappedFile& file = *files_.back();
     file.require_whole();
     sum(file.bytes());
     file.require_whole();
+}
+
+void BoxSources::keep_in(WindBoxData& box) const {
+    box.memory = std::make_shared<const BoxFiles>(files_);
+    box.require_unchanged = change_guard(files_);
 }
 
 BoxOrigin BoxSources::origin(std::string format, std::string note) const {

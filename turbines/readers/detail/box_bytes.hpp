@@ -2,6 +2,7 @@
 /// Parts that the readers of wind boxes have in common. Internal to the readers: not installed.
 #pragma once
 
+#include "elements/wind/box_files.hpp"
 #include "elements/wind/wind_box.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/mapped_file.hpp"
@@ -78,12 +79,11 @@ public:
     void name(const std::filesystem::path& path) { names_.push_back(path.string()); }
 
     BoxOrigin origin(std::string format, std::string note = {}) const;
-    /// Keeps the mapped files.
-    std::shared_ptr<const void> memory() const { return files_; }
+    /// Lets a box keep the mapped files, and find out whether they change.
+    void keep_in(WindBoxData& box) const;
 
 private:
-    std::shared_ptr<std::vector<std::unique_ptr<const MappedFile>>> files_ =
-        std::make_shared<std::vector<std::unique_ptr<const MappedFile>>>();
+    BoxFiles files_;
     std::vector<std::string> names_;
     std::uint64_t checksum_ = checksum_of({});
 };
