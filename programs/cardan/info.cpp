@@ -12,7 +12,9 @@
 #include "programs/shared/program.hpp"
 #include "solvers/hdf5/file.hpp"
 #include "solvers/hdf5/history.hpp"
+#include "turbines/analysis/machine_wind.hpp"
 #include "turbines/machine/result.hpp"
+#include "turbines/machine/wind_text.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -55,12 +57,25 @@ void print_channels(const std::vector<Channel>& channels) {
     }
 }
 
+// Of a run in time, with the seed and the checksum of a box; why it cannot be had, where its files are no longer there.
+std::string wind_in_words(const std::string& description, const std::string& file) {
+    try {
+        const std::optional<Wind> wind = turbines::wind_of(description, file);
+        if (!wind) return {};
+        return wind->is_steady() ? text(wind->rows().front().speed, " m/s, steady") : turbines::in_words(*wind);
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
 void print_history(const std::string& file) {
     const solvers::HistoryInfo info = solvers::read_history_info(file);
     std::cout << file << ": history '" << info.about.title << "', " << state_in_words(info) << "\n";
     if (info.needs_repair)
         std::cout << "repair      needed for programs other than this one: cardan repair " << file << "\n";
     std::cout << "program     " << info.about.program << " " << info.version << "\n";
+    if (const std::string wind = wind_in_words(info.about.description, file); !wind.empty())
+        std::cout << "wind        " << wind << "\n";
     if (!info.about.method.empty()) std::cout << "method      " << info.about.method << "\n";
     std::cout << "rows        " << info.rows;
     if (info.rows > 0) std::cout << ", " << info.first_time << " ... " << info.last_time << " s";
