@@ -83,7 +83,7 @@ turbines::WindSource wind_source(const std::string& given) {
             throw InputError(text("--wind: ", error.what()));
         }
     }
-    if (std::filesystem::exists(given)) return std::filesystem::path(given);
+    if (std::error_code none; std::filesystem::exists(given, none)) return std::filesystem::path(given);
     const double speed = number("--wind", given, given, wind_file_format);
     require_not_negative("--wind", "value [m/s]", speed);
     return speed;
