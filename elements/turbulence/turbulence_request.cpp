@@ -179,10 +179,11 @@ BoxGrid rotor_grid(double hub_height, double rotor_diameter, const RotorGridOpti
         throw InputError(where, "spacing of the points [m]",
                          std::min(height / (options.rows - 1), width / (options.columns - 1)),
                          text("at least ", finest));
+    const int steps = steps_of(options.duration, options.time_step);
     if (options.time_step > options.duration / 2)
         throw InputError(where, "time between planes [s]", options.time_step,
                          text("at most half of the duration, ", options.duration / 2));
-    return {.steps = steps_of(options.duration, options.time_step),
+    return {.steps = steps,
             .rows = options.rows,
             .columns = options.columns,
             .time_step = options.time_step,
