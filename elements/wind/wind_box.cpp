@@ -193,20 +193,10 @@ void require_grid(const WindBoxData& box) {
         throw InputError("wind box", "number of means", box.means.size(), text("as many as points, ", points));
 }
 
-// Of all velocities that sixteen bits can say.
-void require_range(const WindBoxData& box, const BoxNumbers& of) {
-    constexpr double max = 2000, largest = 32768;
-    const double size = std::abs(of.offset) + largest * std::abs(of.scale);
-    if (!(size <= max))
-        throw InputError(box.origin.files.empty() ? "wind box" : box.origin.files.front(),
-                         "range of a component, by its scale and offset [m/s]", size, text("up to ", max));
-}
-
 void require_numbers(const WindBoxData& box) {
     for (const BoxNumbers& of : box.components) {
         if (of.data == nullptr) throw InputError("wind box", "numbers", "none", "of u, v and w");
         if (of.type != box.components[0].type) throw InputError("wind box", "type of numbers", "mixed", "one");
-        if (of.type == BoxNumbers::Type::int16) require_range(box, of);
     }
     if (box.below != BelowBox::tower) return;
     if (!box.tower || box.tower->points < 1) throw InputError("wind box", "points of the tower", "none", "at least 1");

@@ -298,6 +298,8 @@ turbines::WindBoxFile wind_to_look_at(const std::string& path) {
         print_notes(file.notes, false);
         return file;
     }
+    if (lower_case(std::filesystem::path(path).extension().string()) == ".csv")
+        throw InputError(path, "wind", "a table, without turbulence", "a turbulent wind");
     turbines::InflowWindFile file = turbines::read_inflow_wind(path);
     print_notes(file.notes, false);
     return turbulence_of(file.wind, path);

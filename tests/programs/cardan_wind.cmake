@@ -40,7 +40,7 @@ add_example_test(example_wind_two_deviations cardan 2 "excludes" wind nrel5mw --
 add_example_test(example_wind_class cardan 1 "--wind-class: .*IV" wind nrel5mw --speed 12 --wind-class IV)
 add_example_test(example_wind_low cardan 1 "height .m. = 200; allowed: at least 126, the rotor's diameter, and below 180" wind nrel5mw --speed
                  12 --height 200)
-add_example_test(example_wind_steady cardan 1 "wind = without turbulence; allowed: a turbulent wind" wind ${history})
+add_example_test(example_wind_steady cardan 1 "wind = a table, without turbulence; allowed: a turbulent wind" wind ${history})
 add_example_test(example_wind_info cardan 1 "box8.bts: is a wind and no machine" info ${CMAKE_CURRENT_SOURCE_DIR}/data/wind/box8.bts)
 add_example_test(example_wind_look_result cardan 0 "files: example_wind_result[.]svg" wind example_wind_simulate.h5 --out example_wind_result)
 set_tests_properties(example_wind_simulate PROPERTIES FIXTURES_SETUP wind_history)

@@ -2,7 +2,12 @@
 
 #include "turbines/readers/detail/box_bytes.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
 
 namespace cardan::turbines {
 
@@ -63,6 +68,30 @@ TurbSimHeader read_turbsim_header(const MappedFile& file) {
     return out;
 }
 
+// All numbers are those of winds, which a slope or an offset of another unit makes absurd.
+void require_winds(const MappedFile& file, const TurbSimHeader& header) {
+    constexpr double max = 1e3;  // m/s
+    constexpr const char* names[] = {"u", "v", "w"};
+    const std::span<const std::byte> all = file.bytes().subspan(header.data);
+    using Limits = std::numeric_limits<std::int16_t>;
+    std::array<std::int16_t, 3> low{Limits::max(), Limits::max(), Limits::max()},
+        high{Limits::min(), Limits::min(), Limits::min()}, own{};
+    for (std::size_t i = 0; i + sizeof own <= all.size(); i += sizeof own) {
+        std::memcpy(own.data(), all.data() + i, sizeof own);
+        for (std::size_t c = 0; c < 3; ++c) {
+            low[c] = std::min(low[c], own[c]);
+            high[c] = std::max(high[c], own[c]);
+        }
+    }
+    for (std::size_t c = 0; c < 3; ++c)
+        for (const std::int16_t number : {low[c], high[c]}) {
+            const double velocity = (number - header.offsets[c]) / header.slopes[c];
+            if (!(std::abs(velocity) <= max))
+                throw FileError(file.path(), text("byte ", 42 + 8 * c, ": by its slope and offset ", names[c],
+                                                  " becomes ", velocity, " m/s; allowed: ", -max, " ... ", max));
+        }
+}
+
 }  // namespace
 
 WindBoxFile read_turbsim_box(const std::filesystem::path& path) {
@@ -80,6 +109,7 @@ WindBoxFile read_turbsim_box(const std::filesystem::path& path) {
                    text(grid.steps, " planes of ", grid.rows, " x ", grid.columns, " points and ", header.tower_points,
                         " of the tower"));
     sources.sum();
+    require_winds(file, header);
 
     WindBoxData box;
     box.grid = grid;

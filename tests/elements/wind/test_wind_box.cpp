@@ -236,11 +236,6 @@ TEST_CASE("wind box: grids and numbers that cannot be are refused", "[bad input]
     refused([](WindBoxData& d) { d.means.resize(3); }, "number of means = 3");
     refused([](WindBoxData& d) { d.components[1].data = nullptr; }, "numbers = none");
     refused([](WindBoxData& d) { d.below = BelowBox::tower; }, "points of the tower = none");
-    refused(
-        [](WindBoxData& d) {
-            for (BoxNumbers& of : d.components) of.type = BoxNumbers::Type::int16;
-        },
-        "by its scale and offset [m/s] = 32768; allowed: up to 2000");
 }
 
 TEST_CASE("wind with a box: steady wind and box are added; turned axes turn both and the places", "[analytic]") {

@@ -89,6 +89,8 @@ TEST_CASE("damaged wind boxes: values of TurbSim's header that cannot be", "[pro
     folder.check_value(name, 42, 0.F, "byte 42: slope of u = 0 s/m; allowed: at least 1 in size");
     folder.check_value(name, 50, not_a_number, "byte 50: slope of v = nan");
     folder.check_value(name, 62, infinite, "byte 62: offset of w = inf");
+    folder.check_value(name, 46, 1e29F, "byte 42: by its slope and offset u becomes");
+    folder.check_value(name, 50, 1.F, "byte 50: by its slope and offset v becomes");
     folder.check_value(name, 66, -1, "byte 66: length of the description = -1");
     folder.check_value(name, 66, most, "ends at byte 2197, within its header: description");
     // Sizes whose product does not fit.
