@@ -32,5 +32,8 @@ expect quasi-steady campbell nrel5mw --wake qu
 expect dynamic campbell nrel5mw --wake = dy
 expect none steady nrel5mw --wake =
 expect --blade-damping modes nrel5mw --blade-d
+expect wind wi
+expect mann wind nrel5mw --spectrum ma
+expect --plane-order wind nrel5mw --pl
 [ "$(offered campbell wt600 --generator lo | grep -c .)" = 1 ] || { echo "FAILED: more than one value"; exit 1; }
 echo "completion: all is well"
