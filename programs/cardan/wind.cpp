@@ -145,7 +145,7 @@ Site site_of(const WindCommandArguments& a) {
     if (a.rpm) site.rotor_speed = *a.rpm * units::rpm;
     if (a.what.empty()) {
         if (!a.hub_height || !a.diameter)
-            throw InputError("cardan wind: a machine, or --hub-height and --diameter, to make turbulence for");
+            throw InputError("a machine, or --hub-height and --diameter, to make turbulence for");
         return site;
     }
     const turbines::Machine machine = turbines::read_machine(a.what);
@@ -311,8 +311,8 @@ void require_wind_file(const std::string& what) {
     const std::string ending = lower_case(std::filesystem::path(what).extension().string());
     if (what.empty() || std::ranges::find(machines, what, &turbines::BuiltInMachine::name) != machines.end() ||
         ending == ".fst" || ending == ".yaml" || ending == ".yml")
-        throw InputError(text(what.empty() ? "cardan wind" : what,
-                              ": --speed is needed to make turbulence for a machine; a file with a wind is looked at "
+        throw InputError(text(what.empty() ? "" : what + ": ",
+                              "--speed is needed to make turbulence for a machine; a file with a wind is looked at "
                               "without"));
 }
 
