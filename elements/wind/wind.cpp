@@ -101,8 +101,8 @@ WindAtTime Wind::at(double time) const {
     return {*this, time};
 }
 
-WindAxes::WindAxes(double direction, double upflow, double pivot) : direction(direction), upflow(upflow), pivot(pivot) {
-    const double ca = std::cos(direction), sa = std::sin(direction), cb = std::cos(upflow), sb = -std::sin(upflow);
+WindAxes::WindAxes(double to, double up, double about) : direction(to), upflow(up), pivot(about) {
+    const double ca = std::cos(to), sa = std::sin(to), cb = std::cos(up), sb = -std::sin(up);
     R << cb * ca, cb * sa, -sb, -sa, ca, 0, sb * ca, sb * sa, cb;
 }
 

@@ -26,7 +26,7 @@ struct WindAxes {
     Mat3 R = Mat3::Identity();  ///< from ground axes to those of the wind
 
     WindAxes() = default;
-    WindAxes(double direction, double upflow, double pivot);
+    WindAxes(double to, double up, double about);  ///< direction, upflow, pivot
 };
 
 class WindAtTime;

@@ -144,8 +144,8 @@ WindCurves read_wind_curves(const std::filesystem::path& path, std::string name)
     const std::vector<std::string> names = file.read_strings("channels/channel_name"),
                                    units = file.read_strings("channels/channel_units");
     // Earlier files have the second name.
-    const auto stored = [&file](const std::string& name, const std::string& before) {
-        return "channels/" + (file.has("channels/" + name) ? name : before);
+    const auto stored = [&file](const std::string& now, const std::string& before) {
+        return "channels/" + (file.has("channels/" + now) ? now : before);
     };
     const std::vector<double> mean = file.read_doubles("channels/mean"),
                               min = file.read_doubles(stored("minimum", "least")),

@@ -122,7 +122,7 @@ TEST_CASE("wind box: gradients are those of differences, below the grid too", "[
     data.periodic = true;
     const auto tower_numbers = std::make_shared<std::vector<float>>();
     for (int i = 0; i < 8 * 2 * 3; ++i) tower_numbers->push_back(static_cast<float>(uniform(random, -3, 3)));
-    BoxTower tower{.points = 2, .highest = 20, .spacing = 8};
+    BoxTower tower{.components = {}, .points = 2, .highest = 20, .spacing = 8};
     for (int c = 0; c < 3; ++c)
         tower.components.at(static_cast<std::size_t>(c)) = {.data = tower_numbers->data() + c, .step = 6, .row = 3};
     data.tower = tower;
