@@ -1,5 +1,6 @@
 #include "elements/turbulence/kaimal.hpp"
 
+#include "elements/wind/iec_class.hpp"
 #include "mbs/base/error.hpp"
 #include "mbs/base/sizes.hpp"
 
@@ -46,13 +47,8 @@ void Kaimal::check() const {
     require_not_negative(where, "offset of the coherence", offset);
 }
 
-double turbulence_length(double hub_height) {
-    require_positive("turbulence", "hub height [m]", hub_height);
-    return 0.7 * std::min(hub_height, 60.0);
-}
-
 Kaimal kaimal_turbulence(double speed, double deviation, double hub_height) {
-    const double length = turbulence_length(hub_height);
+    const double length = iec_turbulence_scale(hub_height);
     Kaimal out{.speed = speed,
                .deviation = deviation * Vec3(1, 0.8, 0.5),
                .length = length * Vec3(8.1, 2.7, 0.66),

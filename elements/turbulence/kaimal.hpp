@@ -45,9 +45,6 @@ struct Kaimal {
     void check() const;
 };
 
-/// Lambda_1 of the standard: 0.7 times the hub height, at most 42 m.
-double turbulence_length(double hub_height);
-
 /// Kaimal turbulence of the standard: sigma_k = sigma_1 (1, 0.8, 0.5), L_k = Lambda_1 (8.1, 2.7, 0.66),
 /// L_c = 8.1 Lambda_1.
 /// @param speed       mean at hub height, m/s

@@ -21,7 +21,7 @@ namespace {
 using detail::CorrelatedPlane;
 using detail::PlaneMethod;
 
-constexpr int largest_step_factor = 100, most_threads = 1024;
+constexpr int most_threads = 1024;
 
 void check_kaimal_grid(const BoxGrid& grid) {
     constexpr auto where = "grid of a turbulence box";
@@ -33,11 +33,11 @@ void check_kaimal_grid(const BoxGrid& grid) {
     require_positive(where, "time step [s]", grid.time_step);
     require_positive(where, "spacing of the rows [m]", grid.row_spacing);
     require_positive(where, "spacing of the columns [m]", grid.column_spacing);
-    if (detail::largest_factor(grid.steps) > largest_step_factor) {
+    if (detail::largest_factor(grid.steps) > detail::max_factor) {
         int next = grid.steps + 1;
-        while (detail::largest_factor(next) > largest_step_factor) ++next;
+        while (detail::largest_factor(next) > detail::max_factor) ++next;
         throw InputError(where, "steps", grid.steps,
-                         text("numbers without a prime factor above ", largest_step_factor, ", such as ", next));
+                         text("numbers without a prime factor above ", detail::max_factor, ", such as ", next));
     }
 }
 
@@ -159,9 +159,7 @@ private:
 
     template <class MakeWork>
     bool share(const MakeWork& make_work, int count, int before, int total) const {
-        const int threads = options_.threads > 0 ? options_.threads
-                                                 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-        return detail::share_out(count, threads, make_work, [&](int done) {
+        return detail::share_out(count, detail::thread_count(options_.threads), make_work, [&](int done) {
             if (options_.progress) options_.progress(before + done, total);
             return !options_.cancelled || !options_.cancelled();
         });

@@ -19,13 +19,13 @@ namespace {
 constexpr const char* mann_box_name = "Mann's turbulence";
 
 void check_mann_grid(const BoxGrid& grid) {
-    constexpr int most_steps = 1 << 28, most_across = 1 << 14, largest = 100;
+    constexpr int most_steps = 1 << 28, most_across = 1 << 14;
     if (grid.steps < 3 || grid.steps > most_steps)
         throw InputError(mann_box_name, "steps", grid.steps, text("3 to ", most_steps));
-    if (const int factor = detail::largest_factor(grid.steps); factor > largest)
+    if (const int factor = detail::largest_factor(grid.steps); factor > detail::max_factor)
         throw InputError(mann_box_name, "steps", grid.steps,
-                         text("no prime factor above ", largest, ", here ", factor, ", which takes long to transform; ",
-                              detail::fast_length(grid.steps), " is fast"));
+                         text("no prime factor above ", detail::max_factor, ", here ", factor,
+                              ", which takes long to transform; ", detail::fast_length(grid.steps), " is fast"));
     if (grid.rows < 2 || grid.rows > most_across)
         throw InputError(mann_box_name, "rows", grid.rows, text("2 to ", most_across));
     if (grid.columns < 2 || grid.columns > most_across)
@@ -121,8 +121,7 @@ MannBox make_mann_box(const MannOptions& options) {
     const detail::MannLattice lattice(options);
     const std::size_t points =
         static_cast<std::size_t>(options.grid.rows) * static_cast<std::size_t>(options.grid.columns);
-    const int threads =
-        options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    const int threads = detail::thread_count(options.threads);
     MannBox box;
     box.grid = options.grid;
     box.speed = options.speed;

@@ -1,6 +1,7 @@
 #include "elements/turbulence/mann_tensor.hpp"
 
 #include "elements/turbulence/detail/sheared_wave.hpp"
+#include "elements/wind/iec_class.hpp"
 #include "mbs/base/error.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ MannParameters iec_mann(double hub_height, double sigma_1) {
     require_positive("Mann's tensor of IEC 61400-1", "height of the hub", hub_height);
     require_positive("Mann's tensor of IEC 61400-1", "sigma_1", sigma_1);
     MannParameters out;
-    out.length_scale = 0.8 * 0.7 * std::min(hub_height, 60.0);
+    out.length_scale = 0.8 * iec_turbulence_scale(hub_height);
     out.dissipation = dissipation_of_isotropic(0.55 * sigma_1, out.length_scale);
     return out;
 }

@@ -46,7 +46,7 @@ int steps_of(double duration, double time_step) {
         throw InputError(request_place, "duration over time step", least, text("at most ", largest));
     int steps = std::max(8, static_cast<int>(least));
     steps += steps % 2;
-    while (detail::largest_factor(steps) > 100) steps += 2;
+    while (detail::largest_factor(steps) > detail::max_factor) steps += 2;
     return steps;
 }
 

@@ -2,8 +2,6 @@
 
 #include "mbs/base/error.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,11 +34,13 @@ SteadyWind row_at(const std::vector<double>& times, const std::vector<SteadyWind
 // Speed and exponent of a power law through the mean wind of a box, over its planes at the middle column.
 void take_mean(const WindBox& box, SteadyWind& steady) {
     const BoxGrid& grid = box.grid();
-    std::vector<double> heights, speeds;
-    for (int row = 0; row < grid.rows; ++row) {
-        heights.push_back(grid.lowest + row * grid.row_spacing);
-        speeds.push_back(box.statistics(row, grid.columns / 2).mean.x());
-    }
+    std::vector<double> heights, speeds(static_cast<std::size_t>(grid.rows));
+    for (int row = 0; row < grid.rows; ++row) heights.push_back(grid.height_of(row));
+    // Plane by plane, as they lie in files.
+    for (int step = 0; step < grid.steps; ++step)
+        for (int row = 0; row < grid.rows; ++row)
+            speeds[static_cast<std::size_t>(row)] += box.at_point(step, row, grid.columns / 2).x();
+    for (double& speed : speeds) speed /= grid.steps;
     const double at = std::clamp((steady.reference_height - grid.lowest) / grid.row_spacing, 0.0, grid.rows - 1.0);
     const auto below = static_cast<std::size_t>(std::min(static_cast<int>(at), grid.rows - 2));
     steady.speed = std::max(0.0, std::lerp(speeds[below], speeds[below + 1], at - static_cast<double>(below)));

@@ -67,6 +67,15 @@ void take_air(turbines::Machine& machine, const AirArguments& arguments, Machine
     print_notes(machine.air->notes, options, "notes on the air");
 }
 
+IecClass wind_class_of(const std::string& name) {
+    if (name.empty()) return {};
+    try {
+        return iec_class(name);
+    } catch (const InputError& error) {
+        throw InputError(text("--wind-class: ", error.what()));
+    }
+}
+
 turbines::WindSource wind_source(const std::string& given) {
     if (given == "none") return turbines::WindSource::none();
     // A number or a name is what it says, whatever files there are of that name: ./12 is one.

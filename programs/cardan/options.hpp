@@ -38,6 +38,11 @@ turbines::AirSettings settings_of(const AirArguments& arguments);
 /// @throws InputError for a machine without airfoils; as the readers
 void take_air(turbines::Machine& machine, const AirArguments& arguments, MachineOptions& options);
 
+inline constexpr const char* wind_class_format =
+    "of IEC 61400-1: I, II, III or S with its reference speed, then A+, A, B or C (default: IA)";
+/// The class of --wind-class; empty: the default.  @throws InputError naming the option
+IecClass wind_class_of(const std::string& name);
+
 inline constexpr const char* wind_file_format =
     "SPEED in m/s; or FILE: CSV with time[s],speed[m/s] and more, a turbulent wind (.bts, .wnd), InflowWind's main "
     "file, or a result (.h5) in the wind; or NAME of a wind of IEC 61400-1: nwp:12, eog:12, edc+:12, ecd-:12, "

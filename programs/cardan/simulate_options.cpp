@@ -92,23 +92,12 @@ void add_inflow_options(CommandLine& app, InflowArguments& a) {
                    "turbulent wind beside its grid, before its first and after its last plane: refuse (an error), hold "
                    "(as on its edge), repeat (the box again)")
         .one_of({"refuse", "hold", "repeat"});
-    app.add_option("--wind-class", a.wind_class,
-                   "of IEC 61400-1, for winds by name: I, II, III or S with its reference speed, then A+, A, B or C "
-                   "(default: IA)")
-        .one_word();
+    app.add_option("--wind-class", a.wind_class, std::string("for winds by name, ") + wind_class_format).one_word();
     app.add_option("--gust-start", a.gust_start, "when a gust of the standard begins, s").not_negative();
 }
 
 OutsideBox outside_box(const std::string& word) {
     return word == "hold" ? OutsideBox::hold : word == "repeat" ? OutsideBox::repeat : OutsideBox::refuse;
-}
-
-IecClass named_class(const std::string& name) {
-    try {
-        return iec_class(name);
-    } catch (const InputError& error) {
-        throw InputError(text("--wind-class: ", error.what()));
-    }
 }
 
 }  // namespace
@@ -164,7 +153,7 @@ turbines::SimulationSettings settings_of(const SimulateArguments& a) {
     if (!a.wind.empty()) o.wind = wind_source(a.wind);
     o.air = settings_of(a.air);
     o.air.outside_box = outside_box(a.inflow.outside);
-    if (!a.inflow.wind_class.empty()) o.air.wind_class = named_class(a.inflow.wind_class);
+    o.air.wind_class = wind_class_of(a.inflow.wind_class);
     o.air.gust_start = a.inflow.gust_start;
     o.controller = controller_of(a);
     o.generator_torque = a.torque;

@@ -69,9 +69,7 @@ void declare(CommandLine& app, WindCommandArguments& a) {
                        "of IEC 61400-1: normal (ntm), extreme (etm), extreme wind of 1 or 50 years (ewm1, ewm50: "
                        "without --speed)"));
     turbulence.one_of({"ntm", "etm", "ewm1", "ewm50"});
-    making(app.add_option("--wind-class", a.wind_class,
-                          "of IEC 61400-1: I, II, III or S with its reference speed, then A+, A, B or C (default: IA)"))
-        .one_word();
+    making(app.add_option("--wind-class", a.wind_class, wind_class_format)).one_word();
     making(app.add_option("--deviation", a.deviation,
                           "standard deviation of the downwind component at the hub instead, m/s"))
         .positive()
@@ -123,15 +121,6 @@ std::pair<int, int> points_of(const std::string& given) {
     return {count(words[0]), count(words[1])};
 }
 
-IecClass class_of(const std::string& name) {
-    if (name.empty()) return {};
-    try {
-        return iec_class(name);
-    } catch (const InputError& error) {
-        throw InputError(text("--wind-class: ", error.what()));
-    }
-}
-
 // Where the wind blows, and how fast the rotor turns there.
 struct Site {
     double hub_height = 0, diameter = 0;
@@ -166,8 +155,8 @@ TurbulenceRequest request_of(const WindCommandArguments& a, const Site& site) {
     if (a.extreme() && a.speed)
         throw InputError("--speed", "value [m/s]", *a.speed,
                          text("none beside --turbulence ", a.turbulence, ", whose speed is that of the class"));
-    TurbulenceRequest request =
-        iec_turbulence(turbulence_kind(a.turbulence), class_of(a.wind_class), site.hub_height, a.speed.value_or(0));
+    TurbulenceRequest request = iec_turbulence(turbulence_kind(a.turbulence), wind_class_of(a.wind_class),
+                                               site.hub_height, a.speed.value_or(0));
     if (a.deviation) request.deviation = *a.deviation;
     if (a.shear) request.exponent = *a.shear;
     request.model = a.spectrum == "mann" ? TurbulenceModel::mann : TurbulenceModel::kaimal;
@@ -197,7 +186,7 @@ std::string turbulence_in_words(const WindCommandArguments& a, const TurbulenceR
              std::round(request.deviation / request.speed * 1e4) / 100, " % of ", request.speed, " m/s");
     const std::string model = request.model == TurbulenceModel::mann ? "Mann's tensor" : "Kaimal's spectra";
     if (a.deviation) return text(model, ", ", sigma);
-    return text(model, ", ", a.turbulence, " of class ", name_of(class_of(a.wind_class)), ": ", sigma);
+    return text(model, ", ", a.turbulence, " of class ", name_of(wind_class_of(a.wind_class)), ": ", sigma);
 }
 
 BoxView view_of(const WindCommandArguments& a, const turbines::WindBoxFile& file) {

@@ -85,13 +85,14 @@ void Simulation::Parts::set_machine(const Machine& source) {
     machine = with_settings(source, settings.machine, report());
     if (settings.machine.damping) note_undamped(machine, report());
     settings.controller = checked(settings.controller, machine, report());
+    double wind = 0;
     if (!settings.wind->is_none()) {
         static_cast<void>(machine.require_air());
-        // A file that is no wind is refused before a mesh is sought.
-        static_cast<void>(start_speed(*settings.wind, settings.air));
+        // Here, so that a file that is no wind is refused before a mesh is sought.
+        wind = start_speed(*settings.wind, settings.air);
     }
     if (settings.controller.acts()) make_pitch_drives(settings.controller, machine.description);
-    take_operation(machine, settings, report());
+    take_operation(machine, settings, wind, report());
     settings.rotor_speed = rotor_speed_of(settings.rotor_speed, machine, "SimulationSettings::rotor_speed", report());
     settings.machine.pitch = pitch_at_speed(settings.machine.pitch, machine, *settings.rotor_speed, report());
     take_generator(machine, settings, report());

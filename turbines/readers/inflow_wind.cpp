@@ -130,10 +130,6 @@ InflowWindType type_of(OpenFastFile& file) {
     return static_cast<InflowWindType>(kind);
 }
 
-}  // namespace
-
-namespace {
-
 // Files that its main file names.
 void require_main_file(const std::filesystem::path& path) {
     const std::string extension = lower_case(path.extension().string());

@@ -99,7 +99,7 @@ private:
 
 constexpr double native_far = 1e5;
 
-SteadyWind native_profile(NativeWords& in) {
+SteadyWind native_mean(NativeWords& in) {
     constexpr auto upward = "VLINSHEAR", across = "HLINSHEAR", over = "REFLENGTH";
     SteadyWind out;
     out.speed = in.number("UBAR", 1e-3, 1e3);
@@ -144,7 +144,7 @@ WindBoxFile read_native_bladed_box(const std::filesystem::path& path) {
     const std::string all = text_file(path);
     NativeWords in(all, path.string());
     WindBoxFile out;
-    out.mean = native_profile(in);
+    out.mean = native_mean(in);
     out.direction = -in.number("WDIR", -2 * pi, 2 * pi);
     out.upflow = in.number("FLINC", -pi / 2, pi / 2);
 

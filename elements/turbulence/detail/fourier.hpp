@@ -32,5 +32,7 @@ private:
 int fast_length(int n);
 /// n's largest prime factor.
 int largest_factor(int n);
+/// Above it a transform takes too long.
+inline constexpr int max_factor = 100;
 
 }  // namespace cardan::detail

@@ -12,6 +12,11 @@
 
 namespace cardan::detail {
 
+/// The number of threads that is asked for; 0: one per processor.
+inline int thread_count(int asked) {
+    return asked > 0 ? asked : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 /// Calls work(index) for 0 <= index < count, each once, in the order of their indices as threads become free; the
 /// calling thread is one of them. Fewer threads are used where the system has no more.
 /// @param make_work  called once per thread: returns its `work` with what it needs for itself

@@ -1,5 +1,6 @@
 // Kaimal's spectra and coherence as functions: closed forms, and tables of an independent program.
 #include "elements/turbulence/kaimal.hpp"
+#include "elements/wind/iec_class.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/refusal.hpp"
@@ -25,8 +26,8 @@ double mean_coherence(double distance, int first, int last) {
 
 TEST_CASE("Kaimal: parameters of the standard follow from the hub height", "[published]") {
     // IEC 61400-1 ed. 3: Lambda_1 = 42 m from 60 m on, 0.7 z below; table B.1.
-    CHECK(turbulence_length(90) == Approx(42).epsilon(1e-15));
-    CHECK(turbulence_length(30) == Approx(21).epsilon(1e-15));
+    CHECK(iec_turbulence_scale(90) == Approx(42).epsilon(1e-15));
+    CHECK(iec_turbulence_scale(30) == Approx(21).epsilon(1e-15));
     CHECK(max_abs(at_14.deviation - Vec3(2.254, 1.8032, 1.127)) < 1e-14);
     CHECK(max_abs(at_14.length - Vec3(340.2, 113.4, 27.72)) < 1e-12);
     CHECK(at_14.coherence_length == Approx(340.2).epsilon(1e-15));

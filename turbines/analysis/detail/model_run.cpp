@@ -178,11 +178,10 @@ void take_controller(const Machine& machine, Controller& c, const Report& report
     report_remark(report, {Remark::Kind::taken, text("controller: ", found.string())});
 }
 
-void take_operation(const Machine& machine, SimulationSettings& s, const Report& report) {
+void take_operation(const Machine& machine, SimulationSettings& s, double wind, const Report& report) {
     const MachineOperation& own = machine.operation;
     const bool known = !own.schedule.empty() || (own.rated_power > 0 && own.rotor_speed > 0);
     if (!s.controller.acts() || s.wind->is_none() || s.rotor_speed || s.machine.pitch || !known) return;
-    const double wind = start_speed(*s.wind, s.air);
     if (!(wind > 0)) return;
     const Operation at = RigidRotor(machine).operation(wind);
     s.rotor_speed = representable(at.rotor_speed, units::rpm);

@@ -25,7 +25,8 @@ void take_controller(const Machine& machine, Controller& controller, const Repor
 /// Under a controller in a wind that is not the model's own: rotor speed and pitch with which the machine runs in the
 /// wind of the start, where they are not given and the machine says how it runs.
 /// @param settings  in and out
-void take_operation(const Machine& machine, SimulationSettings& settings, const Report& report);
+/// @param wind      start_speed(), m/s; of no air 0
+void take_operation(const Machine& machine, SimulationSettings& settings, double wind, const Report& report);
 
 /// Torque law of the model's generator, for runs without a controller and without a given torque; one that never acts
 /// if there is none.

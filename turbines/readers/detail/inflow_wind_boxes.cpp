@@ -52,7 +52,7 @@ WindBoxFile native_bladed_of(OpenFastFile& file) {
     return out;
 }
 
-SteadyWind hawc_profile(OpenFastFile& file) {
+SteadyWind hawc_mean(OpenFastFile& file) {
     SteadyWind out;
     out.speed = file.positive("URef");
     out.reference_height = number_of_hawc(file, {"RefHt_Hawc", "RefHtT5"}, "RefHt");
@@ -87,7 +87,7 @@ WindBoxFile hawc_of(OpenFastFile& file, PlaneOrder order) {
     if (box.scaling == BoxScaling::factors) box.factors = {file.number("SFx"), file.number("SFy"), file.number("SFz")};
     if (box.scaling == BoxScaling::deviations)
         box.deviations = {file.not_negative("SigmaFx"), file.not_negative("SigmaFy"), file.not_negative("SigmaFz")};
-    box.mean = hawc_profile(file);
+    box.mean = hawc_mean(file);
     box.start = file.number_or("XOffset", 0);
     return file.follow(first, [&] { return file.checked("ScaleMethod", [&] { return read_hawc2_box(box); }); });
 }
