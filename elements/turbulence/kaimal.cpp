@@ -4,7 +4,6 @@
 #include "mbs/base/error.hpp"
 #include "mbs/base/sizes.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -10,7 +10,6 @@
 #include <complex>
 #include <memory>
 #include <span>
-#include <thread>
 #include <tuple>
 #include <vector>
 

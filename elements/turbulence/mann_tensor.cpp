@@ -4,7 +4,6 @@
 #include "elements/wind/iec_class.hpp"
 #include "mbs/base/error.hpp"
 
-#include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 
