@@ -24,6 +24,7 @@ void require_index(const char* what, int index, int count) {
 std::vector<int> some_rows(int rows, int most) {
     const int count = std::min(rows, most);
     std::vector<int> out;
+    out.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) out.push_back(count == 1 ? rows / 2 : i * (rows - 1) / (count - 1));
     return out;
 }
@@ -141,6 +142,7 @@ double turning_spectrum(const std::function<double(double f)>& spectrum,
     const double P = rotor_speed / (2 * pi);
     if (harmonics == 0) harmonics = static_cast<int>(std::min<double>(most_harmonics, std::ceil(frequency / P) + 24));
     std::vector<double> cosines;
+    cosines.reserve(circle_angles);
     for (int a = 0; a < circle_angles; ++a) cosines.push_back(std::cos(2 * pi * a / circle_angles));
     double sum = 0;
     for (int n = -harmonics; n <= harmonics; ++n) {

@@ -207,8 +207,8 @@ void require_numbers(const WindBoxData& box) {
 
 }  // namespace
 
-int BoxGrid::row_near(double at) const {
-    return nearest((at - lowest) / row_spacing, rows);
+int BoxGrid::row_near(double z) const {
+    return nearest((z - lowest) / row_spacing, rows);
 }
 
 int BoxGrid::column_near(double y) const {
@@ -293,7 +293,7 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes, std::uint64_t before
     std::uint64_t sum = before;
     std::size_t i = 0;
     for (; i + 8 <= bytes.size(); i += 8) {
-        std::uint64_t eight;
+        std::uint64_t eight = 0;
         std::memcpy(&eight, bytes.data() + i, sizeof eight);
         sum = (sum ^ eight) * prime;
     }

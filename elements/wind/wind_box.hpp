@@ -48,8 +48,8 @@ struct BoxGrid {
     double duration() const { return steps * time_step; }  ///< of a periodic box, s
     double height_of(int row) const { return lowest + row * row_spacing; }
     double place_of(int column) const { return column * column_spacing - width() / 2; }  ///< to the left, m
-    int row_near(double height) const;  ///< the lower one of two that are as near
-    int column_near(double y) const;    ///< likewise the right one
+    int row_near(double z) const;     ///< the lower one of two that are as near
+    int column_near(double y) const;  ///< likewise the right one
     friend bool operator==(const BoxGrid&, const BoxGrid&) = default;
 };
 

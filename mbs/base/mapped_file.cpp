@@ -32,9 +32,9 @@ std::size_t mapped_length(int fd, const std::string& path) {
 
 }  // namespace
 
-MappedFile::MappedFile(const std::filesystem::path& path) : path_(path.string()) {
-    // Without waiting for the other end of a pipe.
-    fd_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+// It is opened without waiting for the other end of a pipe.
+MappedFile::MappedFile(const std::filesystem::path& path)
+    : path_(path.string()), fd_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
     if (fd_ < 0) throw FileError(path_, text("cannot be read: ", reason_of(errno)));
     try {
         const std::size_t length = mapped_length(fd_, path_);

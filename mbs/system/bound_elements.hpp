@@ -97,6 +97,7 @@ public:
     ElementValues(const BoundElements& elements, std::string_view name, const StateView& at);
     ElementValues(const ElementValues&) = delete;
     ElementValues& operator=(const ElementValues&) = delete;
+    ~ElementValues() = default;
     const ElementView& view() const { return *view_; }
 
 private:

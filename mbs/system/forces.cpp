@@ -108,7 +108,9 @@ void Forces::generalised_forces_of_laws(const KinematicsT<S>& kin, VectorInT<S> 
 void Forces::generalised_forces(const StateView& at, VectorOut Q) const {
     require_no_states("forces");
     Vector none;
-    generalised_forces(at, std::move(Q), none);
+    VectorOut rates(none);
+    generalised_forces_of_laws<double>(at.kinematics, at.q, at.qd, Q, at.time);
+    elements_.add_forces(at, Q, rates);
 }
 
 void Forces::generalised_forces(const StateView& at, VectorOut Q, VectorOut rates) const {

@@ -60,6 +60,7 @@ std::string hex(std::size_t index) {
 std::vector<double> frequencies(const BoxGrid& grid, int count) {
     const double first = 1 / grid.duration(), last = 0.5 / grid.time_step;
     std::vector<double> out;
+    out.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) out.push_back(first * std::pow(last / first, i / (count - 1.0)));
     return out;
 }
@@ -101,12 +102,14 @@ std::string point_spectra(const BoxView& view) {
     const std::vector<double> f = frequencies(grid, 60);
     constexpr std::array names{"u", "v", "w"};
     std::vector<Vec3> targets;
+    targets.reserve(f.size());
     for (const double at : f) targets.push_back(view.target.spectra(at));
     std::string data, plots;
     double least = HUGE_VAL, most = 0;
     for (int c = 0; c < 3; ++c) {
         const PowerSpectrum found = in_bands(power_spectrum(spectrum_lines(series_at(*view.box, c, row, column))), 10);
         std::vector<double> target;
+        target.reserve(targets.size());
         for (const Vec3& all : targets) target.push_back(all[c]);
         least = std::min(least, *std::ranges::min_element(target));
         most = std::max(most, *std::ranges::max_element(target));
@@ -144,6 +147,7 @@ std::string turning_spectra(const BoxView& view) {
     if (std::holds_alternative<Kaimal>(view.target.model)) {
         const std::vector<double> f = frequencies(box.grid(), 250);
         std::vector<double> target;
+        target.reserve(f.size());
         for (const double at : f)
             target.push_back(turning_spectrum([&](double s) { return view.target.spectra(s)[0]; },
                                               [&](double s, double d) { return view.target.coherence(0, s, d); },

@@ -42,7 +42,7 @@ void look_through(const MappedFile& file, BoxSources& sources) {
         const auto own = all.subspan(from, std::min(piece, all.size() - from));
         sources.sum(own);
         for (std::size_t i = 0; i + sizeof(float) <= own.size(); i += sizeof(float)) {
-            float value;
+            float value = 0;
             std::memcpy(&value, own.data() + i, sizeof value);
             if (!(std::abs(value) <= most))
                 throw FileError(file.path(), text("byte ", from + i, ": ", value, "; allowed: -1e6 ... 1e6"));

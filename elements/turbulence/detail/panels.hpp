@@ -29,7 +29,10 @@ void at_nodes(double low, double high, int panels, const F& f) {
 /// Integrates over panels from 0 to `high`, narrower towards 0 by a factor of 4 each, down to `narrow`.
 template <class F>
 void at_nodes_towards_zero(double high, double narrow, int panels, const F& f) {
-    for (; high > narrow; high /= 4) at_nodes(high / 4, high, panels, f);
+    while (high > narrow) {
+        at_nodes(high / 4, high, panels, f);
+        high /= 4;
+    }
     at_nodes(0, high, panels, f);
 }
 

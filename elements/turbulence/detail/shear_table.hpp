@@ -21,7 +21,7 @@ public:
         for (std::uint64_t i = first_; i <= segment(high); ++i) {
             const double from = std::bit_cast<double>(i << fraction_bits),
                          to = std::bit_cast<double>((i + 1) << fraction_bits);
-            std::array<double, 4> f;  // at equal distances
+            std::array<double, 4> f{};  // at equal distances
             for (int j = 0; j < 4; ++j)
                 f[static_cast<std::size_t>(j)] = mann_shear(std::sqrt(from + (to - from) * j / 3), gamma);
             cubics_.push_back({f[0], (-11 * f[0] + 18 * f[1] - 9 * f[2] + 2 * f[3]) / 2,

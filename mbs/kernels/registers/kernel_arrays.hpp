@@ -44,9 +44,9 @@ struct KernelArraysT {
 
     /// A body whose subtree has added mass.
     struct Entraining {
-        int body;
-        int parent;                     ///< its place among them, -1: base
-        int own;                        ///< index in Model::added_masses(), -1: only bodies that it carries have some
+        int body = -1;
+        int parent = -1;                ///< its place among them, -1: base
+        int own = -1;                   ///< index in Model::added_masses(), -1: only bodies that it carries have some
         Mat6T<S> I = Mat6T<S>::Zero();  ///< of the subtree about the joint origin
         Mat6T<S> B = Mat6T<S>::Zero();  ///< likewise coriolis_inertia(); scratch
         Vec6T<S> f = Vec6T<S>::Zero();  ///< and force; scratch
