@@ -85,7 +85,7 @@ IecWindName iec_wind_name(std::string_view name) {
 
 std::string name_of(const IecWindName& wind) {
     const IecWindWord& has = entry(iec_words, wind.kind);
-    return text(has.word, !has.sign ? "" : wind.sign > 0 ? "+" : "-", has.speed ? ":" + digits(wind.speed) : "");
+    return text(has.word, !has.sign ? "" : wind.sign > 0 ? "+" : "-", has.speed ? text(":", digits(wind.speed)) : "");
 }
 
 void IecMachine::check() const {

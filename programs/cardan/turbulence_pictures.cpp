@@ -222,7 +222,7 @@ std::string coherence_curves(const BoxView& view) {
         least = std::min(least, std::min(*std::ranges::min_element(real), *std::ranges::min_element(target)) - 0.05);
         data += data_block(text("c", i), found[i].frequency, real) + data_block(text("m", i), f, target);
         plots += text(i == 0 ? "plot " : ", ", "$m", i, " with lines lw 1.4 lc rgb '#000000' ",
-                      i == 0 ? "title " + gnuplot_text(target_name) : "notitle", ", $c", i,
+                      i == 0 ? text("title ", gnuplot_text(target_name)) : "notitle", ", $c", i,
                       " with linespoints lw 1.2 pt 7 ps 0.35 lc rgb ", hex(i), " title ",
                       gnuplot_text(text(rounded(std::round(distance * 10) / 10), " m across")));
     }

@@ -45,8 +45,8 @@ Hawc2Box hawc2_box(int planes, int rows, int columns) {
     box.plane_spacing = 5;
     box.row_spacing = 20;
     box.column_spacing = 15;
-    box.profile.speed = 10;
-    box.profile.reference_height = 70;
+    box.mean.speed = 10;
+    box.mean.reference_height = 70;
     box.scaling = BoxScaling::deviations;
     box.deviations = {1, 1, 1};
     return box;
