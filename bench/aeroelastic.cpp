@@ -26,7 +26,7 @@ turbines::WindOperation level_operation() {
             options};
 }
 
-void diagram_point(benchmark::State& state, turbines::Wake wake, bool unsteady_airfoils) {
+void diagram_point(benchmark::State& state, Wake wake, bool unsteady_airfoils) {
     turbines::WindOperation operation = level_operation();
     const std::array points{operation.at({15, 12.1 * units::rpm, 10.45 * units::degree})};
     turbines::AeroelasticOptions air{.wake = wake};
@@ -55,10 +55,10 @@ void in_pairs(benchmark::internal::Benchmark* one) {
     one->UseManualTime()->Iterations(bench::Pairs::min)->Unit(benchmark::kMillisecond);
 }
 
-BENCHMARK_CAPTURE(diagram_point, frozen, turbines::Wake::frozen, false)->Apply(in_pairs);
-BENCHMARK_CAPTURE(diagram_point, quasi_steady, turbines::Wake::quasi_steady, false)->Apply(in_pairs);
-BENCHMARK_CAPTURE(diagram_point, dynamic, turbines::Wake::dynamic, false)->Apply(in_pairs);
-BENCHMARK_CAPTURE(diagram_point, dynamic_with_airfoils, turbines::Wake::dynamic, true)->Apply(in_pairs);
+BENCHMARK_CAPTURE(diagram_point, frozen, Wake::frozen, false)->Apply(in_pairs);
+BENCHMARK_CAPTURE(diagram_point, equilibrium, Wake::equilibrium, false)->Apply(in_pairs);
+BENCHMARK_CAPTURE(diagram_point, oye, Wake::oye, false)->Apply(in_pairs);
+BENCHMARK_CAPTURE(diagram_point, oye_with_airfoils, Wake::oye, true)->Apply(in_pairs);
 
 }  // namespace
 

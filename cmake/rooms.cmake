@@ -31,7 +31,7 @@ room(solvers/mode_names SEES solvers/campbell_data) # energy shares, tracking, n
 room(solvers/campbell SEES solvers/mode_names) # Campbell diagrams: modes at a point by each method, sweeps
 room(solvers/stability SEES solvers/campbell USES boost) # where flutter and divergence begin over a parameter
 room(solvers/linear_models SEES solvers/periodic) # linear models for the design of controllers
-room(solvers/signals SEES solvers/algebra mbs/system) # histories, sampling, spectra, envelopes
+room(solvers/signals SEES solvers/algebra mbs/system) # histories, sampling, spectra, envelopes, cycles
 room(solvers/time SEES solvers/signals USES sundials) # time integration
 room(solvers/atlas SEES solvers/time mbs/geometry) # time integration in several charts
 room(solvers/hdf5 SEES solvers/campbell_data solvers/time USES hdf5) # diagrams and histories as files

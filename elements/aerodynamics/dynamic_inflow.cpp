@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace cardan {
 
@@ -19,18 +21,21 @@ double inflow_time(double radius, double induction, double wind) {
     return std::min(longest, 1.1 * radius / ((1 - 1.3 * std::min(induction, 0.5)) * std::max(wind, min_wind)));
 }
 
-double mean_induction(std::span<const double> shares, std::span<const double> axial) {
-    double sum = 0, weights = 0, nearest = 0, distance = 1e300;
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-        const double u = std::abs(shares[i] - 0.7) / 0.1, weight = std::pow(1 - std::pow(std::min(1.0, u), 2), 3);
-        sum += weight * axial[i];
-        weights += weight;
-        if (u < distance) {
-            distance = u;
-            nearest = axial[i];
-        }
+std::vector<double> inflow_weights(std::span<const double> shares) {
+    std::vector<double> weights;
+    weights.reserve(shares.size());
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const double share : shares) {
+        const double distance = std::abs(share - 0.7), u = std::min(1.0, distance / 0.1);
+        weights.push_back(std::pow(1 - u * u, 3));
+        nearest = std::min(nearest, distance);
     }
-    return weights > 0 ? sum / weights : nearest;
+    if (nearest >= 0.1)
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            weights[i] = std::abs(shares[i] - 0.7) <= nearest * (1 + 1e-9) ? 1 : 0;
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (double& weight : weights) weight /= sum;
+    return weights;
 }
 
 Eigen::Vector2d DynamicInflow::velocity(const Induction& steady, double V_x, double V_y) {

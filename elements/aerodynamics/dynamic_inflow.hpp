@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace cardan {
 
@@ -25,15 +26,14 @@ struct InflowTimes {
 InflowTimes inflow_times(double first, double share);
 
 /// tau_1 = 1.1 R / [(1 - 1.3 min(a, 0.5)) V], at most 100 s.
-/// @param radius  of the rotor, m;  @param induction  mean of the rotor, mean_induction()
+/// @param radius  of the rotor, m;  @param induction  mean of the axial one with inflow_weights()
 /// @param wind    mean along the shaft, m/s, taken as 0.1 at least
 double inflow_time(double radius, double induction, double wind);
 
-/// Mean axial induction around 70 % of the radius: weights (1 - min(1, |u|)^2)^3, u = (r/R - 0.7) / 0.1, over their
-/// sum.
-/// @param shares, axial  r/R and a of the sections, of all blades
-/// @return that of the section nearest to 70 % if no section has a weight
-double mean_induction(std::span<const double> shares, std::span<const double> axial);
+/// Weights of sections in the mean axial induction around 70 % of the radius: (1 - min(1, |u|)^2)^3,
+/// u = (r/R - 0.7) / 0.1, over their sum. Where no section has one, those nearest to 70 % have all.
+/// @param shares  r/R of the sections, of all blades
+std::vector<double> inflow_weights(std::span<const double> shares);
 
 /// Velocities u and w, m/s: axial and tangential each.
 struct DynamicInflow {

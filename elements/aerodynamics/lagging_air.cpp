@@ -16,6 +16,20 @@ UnsteadyAirfoil::States airfoil_states(const SectionStates& s, const UnsteadySec
     x.tail(lags.airfoil_states()) = s.segment(lags.inflow_states(), lags.airfoil_states());
     return x;
 }
+UnsteadyAirfoil::States airfoil_states(const SectionStates& s, const UnsteadySection& lags,
+                                       const AirfoilMotion& motion) {
+    return lags.at_rest ? lags.airfoil->steady(motion) : airfoil_states(s, lags);
+}
+
+// Of an airfoil whose states follow the motion at once: by the motion alone.
+UnsteadyAirfoil::Slopes at_rest(const UnsteadyAirfoil& airfoil, UnsteadyAirfoil::Slopes slopes) {
+    constexpr int states = UnsteadyAirfoil::states, motions = UnsteadyAirfoil::Slopes::columns - states;
+    Eigen::Matrix<double, states, states> by_states = slopes.rates.leftCols<states>();
+    for (int i = 0; i < states - airfoil.own_states(); ++i) by_states(i, i) = 1;  // those that it does not have
+    const Eigen::Matrix<double, states, motions> moved = -by_states.inverse() * slopes.rates.rightCols<motions>();
+    slopes.coefficients.rightCols<motions>() += slopes.coefficients.leftCols<states>() * moved;
+    return slopes;
+}
 
 AirfoilMotion motion_of(const Annulus& annulus, const Reaching<double>& u, double rate) {
     return {std::atan2(u.u_x, u.u_y) - annulus.angle, std::hypot(u.u_x, u.u_y), rate, annulus.chord};
@@ -65,8 +79,8 @@ public:
           rate_(LagSlope::variable(motion.rate, LaggingSlopes::rate)) {}
 
     LaggingSlopes run() {
-        follow_airfoil_or_table(lags_.wake == WakeLag::frozen ? frozen_velocity()
-                                                              : reaching<LagSlope>(inflow_, factors()));
+        follow_airfoil_or_table(lags_.wake == Wake::frozen ? frozen_velocity()
+                                                           : reaching<LagSlope>(inflow_, factors()));
         return out_;
     }
 
@@ -75,7 +89,7 @@ private:
     void set(int row, const LagSlope& value) { out_.by.row(row) = value.slopes.transpose(); }
 
     Factors<LagSlope> factors() {
-        const bool dynamic = lags_.wake == WakeLag::dynamic;
+        const bool dynamic = lags_.wake == Wake::oye;
         const LagSlope none(0), all(1), share = LagSlope::variable(motion_.wake.share, LaggingSlopes::wake_share);
         Factors<LagSlope> own =
             in_wake<LagSlope>(factors_of(annulus_, inflow_, at_.solved, at_.root, options_, LaggingSlopes::wake_angle),
@@ -96,12 +110,13 @@ private:
 
     void follow_inflow(const Factors<LagSlope>& steady) {
         constexpr double kappa = DynamicInflow::kappa;
+        const InflowTimes times = inflow_times(motion_.wake.time, lags_.share);
         const std::array<LagSlope, 2> velocity{-steady.axial * inflow_.V_x, steady.tangential * inflow_.V_y};
         for (int i = 0; i < 2; ++i) {
             const LagSlope &w = velocity[static_cast<std::size_t>(i)], early = state(s_(i), i),
                            late = state(s_(i + 2), i + 2);
-            set(3 + i, ((1 - kappa) * w - early) / lags_.times.first);
-            set(5 + i, (early + kappa * w - late) / lags_.times.second);
+            set(3 + i, ((1 - kappa) * w - early) / times.first);
+            set(5 + i, (early + kappa * w - late) / times.second);
         }
     }
 
@@ -131,8 +146,9 @@ private:
         const LagSlope speed = flows ? sqrt(u.u_x * u.u_x + u.u_y * u.u_y) : LagSlope(0),
                        attack = (flows ? atan2(u.u_x, u.u_y) : LagSlope(0)) - inflow_.angle;
         const AirfoilMotion motion{attack.value, speed.value, motion_.rate, annulus_.chord};
-        const UnsteadyAirfoil::States x = airfoil_states(s_, lags_);
-        const UnsteadyAirfoil::Slopes slopes = lags_.airfoil->slopes(x, motion);
+        const UnsteadyAirfoil::States x = airfoil_states(s_, lags_, motion);
+        UnsteadyAirfoil::Slopes slopes = lags_.airfoil->slopes(x, motion);
+        if (lags_.at_rest) slopes = at_rest(*lags_.airfoil, slopes);
         const UnsteadyAirfoil::Coefficients c = lags_.airfoil->coefficients(x, motion);
         const int first = LaggingSlopes::first_state + lags_.inflow_states(), count = lags_.airfoil_states();
         const auto value = [&](double of, const auto& row) {
@@ -165,7 +181,7 @@ private:
 
 LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, const SectionStates& s,
                        const RotorAirOptions& options, double density, const UnsteadySection& lags) {
-    const bool balanced = options.induction && lags.wake != WakeLag::frozen;
+    const bool balanced = options.induction && lags.wake != Wake::frozen;
     const Induction balance = balanced ? solve_induction(annulus, motion.V_x, motion.V_y, options.momentum)
                                        : Induction{.phi = std::atan2(motion.V_x, motion.V_y)};
     return lagging_air(balance, annulus, motion, s, density, lags);
@@ -174,7 +190,7 @@ LaggingAir lagging_air(const Annulus& annulus, const SectionMotion& motion, cons
 LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const SectionMotion& motion,
                        const SectionStates& s, double density, const UnsteadySection& lags) {
     const double V_x = motion.V_x, V_y = motion.V_y;
-    const bool frozen = lags.wake == WakeLag::frozen, dynamic = lags.wake == WakeLag::dynamic;
+    const bool frozen = lags.wake == Wake::frozen, dynamic = lags.wake == Wake::oye;
     const Induction steady = with_wake(balance, V_x, V_y, unskewed(motion.wake));
     LaggingAir out{.air = {.V_x = V_x, .V_y = V_y, .induction = steady, .force = {}},
                    .velocity = frozen ? lags.velocity : DynamicInflow::velocity(steady, V_x, V_y),
@@ -186,7 +202,8 @@ LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const S
     } else {
         if (dynamic) {
             const DynamicInflow::States inflow = s.head<DynamicInflow::states>();
-            out.rates.head<DynamicInflow::states>() = DynamicInflow::rates(inflow, out.velocity, lags.times);
+            out.rates.head<DynamicInflow::states>() =
+                DynamicInflow::rates(inflow, out.velocity, inflow_times(motion.wake.time, lags.share));
             now = DynamicInflow::induction(inflow, V_x, V_y);
             now.solved = true;  // for the skew, which it has whatever the balance
         }
@@ -197,7 +214,7 @@ LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const S
         frozen ? Reaching<double>{V_x + lags.velocity.x(), V_y + lags.velocity.y()} : reaching(motion, now);
     if (lags.has_airfoil()) {
         const AirfoilMotion moving = motion_of(annulus, u, motion.rate);
-        const UnsteadyAirfoil::States x = airfoil_states(s, lags);
+        const UnsteadyAirfoil::States x = airfoil_states(s, lags, moving);
         out.rates.segment(lags.inflow_states(), lags.airfoil_states()) =
             lags.airfoil->rates(x, moving).tail(lags.airfoil_states());
         const UnsteadyAirfoil::Coefficients c = lags.airfoil->coefficients(x, moving);
@@ -211,14 +228,14 @@ LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const S
 SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion, const RotorAirOptions& options,
                             const UnsteadySection& lags) {
     UnsteadySection still = lags;
-    if (lags.wake == WakeLag::dynamic) still.wake = WakeLag::none;
+    if (lags.wake == Wake::oye) still.wake = Wake::equilibrium;
     still.airfoil = nullptr;
     const LaggingAir at = lagging_air(annulus, motion, SectionStates::Zero(), options, 1, still);
     SectionStates out = SectionStates::Zero();
-    if (lags.wake == WakeLag::dynamic) out.head<DynamicInflow::states>() = DynamicInflow::steady(at.velocity);
+    if (lags.wake == Wake::oye) out.head<DynamicInflow::states>() = DynamicInflow::steady(at.velocity);
     const Reaching<double> reached =
-        lags.wake == WakeLag::frozen ? Reaching<double>{motion.V_x + lags.velocity.x(), motion.V_y + lags.velocity.y()}
-                                     : reaching(motion, at.air.induction);
+        lags.wake == Wake::frozen ? Reaching<double>{motion.V_x + lags.velocity.x(), motion.V_y + lags.velocity.y()}
+                                  : reaching(motion, at.air.induction);
     if (lags.has_airfoil())
         out.segment(lags.inflow_states(), lags.airfoil_states()) =
             lags.airfoil->steady(motion_of(annulus, reached, motion.rate)).tail(lags.airfoil_states());

@@ -2,6 +2,7 @@
 /// Air on one section of a blade that lags behind its motion: induction, airfoil, or both, with derivatives.
 #pragma once
 
+#include "elements/aerodynamics/air_model.hpp"
 #include "elements/aerodynamics/dynamic_inflow.hpp"
 #include "elements/aerodynamics/section_air.hpp"
 #include "elements/aerodynamics/unsteady_airfoil.hpp"
@@ -12,24 +13,19 @@
 
 namespace cardan {
 
-/// Way in which the induction follows the loads.
-enum class WakeLag : std::uint8_t {
-    none,     ///< it is in equilibrium with them
-    dynamic,  ///< DynamicInflow
-    frozen    ///< the induced velocities stay, whatever the wake's skew
-};
-
 /// Unsteady parts of a section. Its states are those of the inflow, then those of the airfoil.
 struct UnsteadySection {
     const UnsteadyAirfoil* airfoil = nullptr;  ///< none: that of the annulus, steady
-    WakeLag wake = WakeLag::none;
-    InflowTimes times = {0, 0};                          ///< of a dynamic wake, s
+    Wake wake = Wake::equilibrium;
+    /// The airfoil has no states here: they are those that would stay, if the motion of the instant went on for ever.
+    bool at_rest = false;
+    double share = 0;                                    ///< r/R, for Wake::oye: inflow_times()
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< induced, of a frozen one, m/s
 
     static constexpr int max_states = int{DynamicInflow::states} + int{UnsteadyAirfoil::states};
     bool has_airfoil() const { return airfoil != nullptr && airfoil->is_unsteady(); }
-    int inflow_states() const { return wake == WakeLag::dynamic ? DynamicInflow::states : 0; }
-    int airfoil_states() const { return has_airfoil() ? airfoil->own_states() : 0; }
+    int inflow_states() const { return wake == Wake::oye ? DynamicInflow::states : 0; }
+    int airfoil_states() const { return has_airfoil() && !at_rest ? airfoil->own_states() : 0; }
     int states() const { return inflow_states() + airfoil_states(); }
 };
 /// States of a section; only the first UnsteadySection::states() count.
@@ -59,7 +55,7 @@ LaggingAir lagging_air(const Induction& balance, const Annulus& annulus, const S
 SectionStates steady_states(const Annulus& annulus, const SectionMotion& motion, const RotorAirOptions& options,
                             const UnsteadySection& lags);
 
-/// Derivatives of normal, driving, moment and the states' rates (rows).
+/// Derivatives of normal, driving, moment and the states' rates (rows). RotorWake::time counts as constant.
 struct LaggingSlopes {
     enum Column : std::uint8_t { V_x, V_y, angle, radius, wake_angle, wake_lever, wake_share, rate, first_state };
     static constexpr int columns = first_state + UnsteadySection::max_states, rows = 3 + UnsteadySection::max_states;

@@ -29,6 +29,7 @@ struct RotorWake {
         0;  ///< chi_0, between the mean wind and the shaft on the side where the wake leaves, 0 ... pi/2, rad
     double lever = 0;  ///< r/R sin psi sin chi_0; sin psi = 1 where the blade points with the wind across the shaft
     double share = 1;  ///< of a and a' that there is: induction_share()
+    double time = 0;   ///< tau_1 of DynamicInflow, s, for Wake::oye: inflow_time()
 };
 
 /// Fraction of the balance of momentum in a rotor that hardly turns: by its tip-speed ratio, nothing up to 1, all of it

@@ -94,7 +94,6 @@ turbines::CampbellSettings settings_of(const CampbellArguments& a) {
     s.like = a.like;
     s.air = settings_of(a.air.wind.air);
     s.operation = operation_of(a.air.wind);
-    s.vibration = vibration_of(a.air);
     s.floquet = a.air.floquet;
     s.all_air_motions = a.air_roots;
     s.harmonics = a.air.harmonics;

@@ -43,7 +43,7 @@ struct FlutterArguments {
     MachineOptions machine;
     AirArguments air;
     std::string rpm, out;
-    bool steady_airfoils = false, air_roots = false;
+    bool air_roots = false;
     int steps = solvers::StabilityOptions{}.steps;
     std::optional<double> max_frequency;
 };
@@ -55,8 +55,7 @@ void declare(CommandLine& app, FlutterArguments& a) {
         .range(1, 10000);
     add_machine_options(app, a.machine);
     add_airfoil_options(app, a.air);
-    app.add_flag("--steady-airfoils", a.steady_airfoils,
-                 "lift, drag and moment follow the angle of attack at once: flutter then comes early");
+    add_airfoils_option(app, a.air);
     app.add_option("--max-frequency", a.max_frequency,
                    "follow modes up to this frequency, Hz (default: 1.5 times the first torsion at rest)")
         .positive();
@@ -66,7 +65,9 @@ void declare(CommandLine& app, FlutterArguments& a) {
 
 // Torsion feels where the lift acts.
 turbines::Aerodynamics air_for_torsion(const turbines::Machine& machine, const FlutterArguments& a) {
-    turbines::Aerodynamics air = turbines::air_of(machine, settings_of(a.air));
+    turbines::AirSettings settings = settings_of(a.air);
+    settings.wake = Wake::none;
+    turbines::Aerodynamics air = turbines::air_of(machine, settings);
     if (!air.torsion_sweep.empty()) std::cout << "aerodynamic centres: those for torsion\n";
     air.blade = air.torsion_blade();
     return air;
@@ -114,17 +115,12 @@ double torsion_hz(const turbines::Machine& machine, MachineOptions options) {
                      "ones that twist: without torsion there is no flutter");
 }
 
-bool airfoils_lag(const turbines::Aerodynamics& air, const FlutterArguments& a) {
-    return !a.steady_airfoils && !air.unsteady_airfoils.empty();
-}
-
 solvers::StabilityLimits limits_of(const turbines::Turbine& blade, const turbines::Aerodynamics& air,
                                    const FlutterArguments& a, const SpeedRange& range, int steps) {
     RotorAirOptions own_motion = air.options;
-    own_motion.induction = false;
     own_motion.skew = Skew::none;
     turbines::MachineAir still(blade, air.blade, SteadyWind{.density = air.density}, own_motion);
-    if (airfoils_lag(air, a)) still = still.lagging({.airfoils = air.unsteady_airfoils});
+    if (!air.unsteady_airfoils.empty()) still = still.lagging({.airfoils = air.unsteady_airfoils});
     const turbines::Turbine in_air = still.on(blade);
 
     solvers::StabilityOptions options;
@@ -238,7 +234,7 @@ int run(FlutterArguments& a, const CommandLine& command) {
     if (!a.max_frequency) a.max_frequency = modes_up_to * torsion_hz(machine, a.machine);
     const turbines::PreparedTurbine ready = ready_machine(machine, a.machine, *a.max_frequency, range.last);
     const turbines::Turbine blade = blade_of(machine, a.machine);
-    const std::string answer = turbines::air_in_words("none", airfoils_lag(air, a));
+    const std::string answer = turbines::in_words(air.model);
     std::cout << "air of the blade: " << answer << "\n";
     solvers::StabilityLimits found = limits_of(blade, air, a, range, a.steps);
     solvers::Campbell& diagram = found.diagram;

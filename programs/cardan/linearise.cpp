@@ -97,7 +97,6 @@ turbines::LinearModelSettings settings_of(const LineariseArguments& a) {
     s.azimuth = a.azimuth * units::degree;
     s.air = settings_of(a.air.wind.air);
     s.operation = operation_of(a.air.wind);
-    s.vibration = vibration_of(a.air);
     s.report = remarks_printed(a.machine.notes);
     s.cancelled = interrupted;
     return s;
@@ -135,8 +134,7 @@ std::optional<solvers::Campbell> diagram_in_wind(const turbines::MachineLinearMo
     solvers::CampbellOptions options = modes_of(linear, spin);
     options.floquet.harmonics = *linear.settings.harmonics;
     const turbines::WindRun& run = *linear.in_wind;
-    return turbines::aeroelastic_campbell(run.operation, run.points,
-                                          turbines::aeroelastic_options(linear.settings.vibration, run.air), options);
+    return turbines::aeroelastic_campbell(run.operation, run.points, turbines::aeroelastic_options(run.air), options);
 }
 
 // Empty, with the reason printed, where it fails.

@@ -38,24 +38,33 @@ std::vector<Option> add_air_options(CommandLine& app, AirArguments& a) {
     all.push_back(app.add_flag("--no-tower", a.no_tower,
                                "without the tower's influence on the wind, and the air's drag on tower and nacelle"));
     all.push_back(app.add_flag("--no-skew", a.no_skew, "without redistribution of the induction in a skewed wake"));
+    all.push_back(app.add_option("--wake", a.wake,
+                                 "induced velocities: none; frozen at the means of a steady rotation; in equilibrium "
+                                 "with the loads of the instant; or lagging behind them, oye (default: as the model "
+                                 "says, else oye)")
+                      .one_of({"none", "frozen", "equilibrium", "oye"}));
+    all.push_back(add_airfoils_option(app, a));
     return all;
 }
 
-Option add_wake_option(CommandLine& app, AirArguments& a) {
+Option add_airfoils_option(CommandLine& app, AirArguments& a) {
     return app
-        .add_option("--wake", a.wake,
-                    "quasi-steady: induced velocities in equilibrium with the loads; none: there are none")
-        .one_of({"quasi-steady", "none"});
+        .add_option("--airfoils", a.airfoils,
+                    "steady: lift, drag and moment follow the angle of attack at once; unsteady: they lag, where the "
+                    "airfoils have data of that (default: as the model says, else unsteady)")
+        .one_of({"steady", "unsteady"});
 }
 
 turbines::AirSettings settings_of(const AirArguments& a) {
-    return {.shear_exponent = a.shear,
-            .propagation_direction = a.direction * units::degree,
-            .upflow = a.upflow * units::degree,
-            .density = a.density,
-            .skewed_wake = !a.no_skew,
-            .tower_nacelle = !a.no_tower,
-            .induction = a.wake != "none"};
+    turbines::AirSettings settings{.shear_exponent = a.shear,
+                                   .propagation_direction = a.direction * units::degree,
+                                   .upflow = a.upflow * units::degree,
+                                   .density = a.density,
+                                   .skewed_wake = !a.no_skew,
+                                   .tower_nacelle = !a.no_tower};
+    if (!a.wake.empty()) settings.wake = wake_named(a.wake, "--wake");
+    if (!a.airfoils.empty()) settings.airfoils = airfoils_named(a.airfoils, "--airfoils");
+    return settings;
 }
 
 void take_air(turbines::Machine& machine, const AirArguments& arguments, MachineOptions& options) {
@@ -159,24 +168,10 @@ turbines::OperationSettings operation_of(const WindArguments& wind) {
 
 Option add_vibration_options(CommandLine& app, VibrationArguments& a) {
     const Option wind = add_wind_options(app, a.wind);
-    std::vector<Option> beside{
-        app.add_option("--wake", a.wind.air.wake,
-                       "how the induced velocities follow a vibration: frozen (not at all), quasi-steady (at once) or "
-                       "dynamic; none: there are none")
-            .one_of({"frozen", "quasi-steady", "dynamic", "none"}),
-        app.add_flag("--steady-airfoils", a.steady_airfoils,
-                     "lift, drag and moment follow the angle of attack at once, also where the airfoils' data have "
-                     "lags"),
-        app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced, with --wind")
-            .range(1, 200)};
-    for (Option& option : beside) option.only_with(wind);
+    app.add_option("--harmonics", a.harmonics, "harmonics of the revolution that are balanced, with --wind")
+        .range(1, 200)
+        .only_with(wind);
     return wind;
-}
-
-turbines::VibrationSettings vibration_of(const VibrationArguments& a) {
-    turbines::VibrationSettings settings{.unsteady_airfoils = !a.steady_airfoils};
-    if (a.wind.air.wake != "none") settings.wake = turbines::wake_named(a.wind.air.wake, "--wake");
-    return settings;
 }
 
 void show_progress(const char* what, int done, int total) {

@@ -23,14 +23,14 @@ struct AirArguments {
     double direction = 0, upflow = 0;  ///< deg
     std::optional<double> density;
     bool no_skew = false, no_tower = false;
-    std::string wake = "quasi-steady";  ///< "none": no induced velocities
+    std::string wake, airfoils;  ///< name_of(Wake), name_of(Airfoils); empty: as the machine says
 };
 /// Adds the file of the airfoils and the density alone.
 /// @return the options
 std::vector<Option> add_airfoil_options(CommandLine& app, AirArguments& arguments);
 std::vector<Option> add_air_options(CommandLine& app, AirArguments& arguments);
-/// Adds --wake to commands whose wake is in equilibrium, or none.
-Option add_wake_option(CommandLine& app, AirArguments& arguments);
+/// Adds --airfoils to commands in still air.
+Option add_airfoils_option(CommandLine& app, AirArguments& arguments);
 /// Translates the arguments into the library's terms.
 turbines::AirSettings settings_of(const AirArguments& arguments);
 
@@ -73,14 +73,11 @@ turbines::OperationSettings operation_of(const WindArguments& wind);
 
 /// Arguments on the air's part in a vibration.
 struct VibrationArguments {
-    WindArguments wind;  ///< of its wake, air.wake, frozen and dynamic too
-    bool steady_airfoils = false, floquet = false;
+    WindArguments wind;
+    bool floquet = false;
     int harmonics = turbines::CampbellSettings().harmonics;
-
-    VibrationArguments() { wind.air.wake = "dynamic"; }
 };
 Option add_vibration_options(CommandLine& app, VibrationArguments& arguments);
-turbines::VibrationSettings vibration_of(const VibrationArguments& arguments);
 
 /// @param rpm  --rpm; empty: it is not given
 /// @throws InputError for a schedule beside options of variable speed, and for a rotor speed beside the wind

@@ -128,7 +128,6 @@ void declare(CommandLine& app, SimulateArguments& a) {
         .type_name("SPEED|FILE|NAME|none");
     add_air_options(app, a.air);
     add_inflow_options(app, a.inflow);
-    add_wake_option(app, a.air);
     app.add_option(
            "--rotor-torque", a.rotor_torque,
            "torque on the rotor, N m, positive drives positive rotation: a number, or a file (.csv) with columns "

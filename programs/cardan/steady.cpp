@@ -58,8 +58,7 @@ void declare(CommandLine& app, SteadyArguments& a) {
     app.add_flag("--no-gravity", a.no_gravity, "without gravity");
     app.add_flag("--all", a.all, "print all channels, not only the main ones");
     add_station_options(app, a.revolution.stations);
-    const Option wind = add_wind_options(app, a.wind);
-    add_wake_option(app, a.wind.air).only_with(wind);
+    add_wind_options(app, a.wind);
     add_machine_options(app, a.machine);
     app.add_option("--out", a.out, "prefix of the files (default: the machine's name and _steady)");
 }

@@ -211,7 +211,24 @@ struct RenamedOption {
     std::string_view before, now;
 };
 constexpr std::array renamed_options{RenamedOption{"--least-rpm", "--min-rpm"},
-                                     RenamedOption{"--steady-profiles", "--steady-airfoils"}};
+                                     RenamedOption{"--steady-profiles", "--airfoils=steady"},
+                                     RenamedOption{"--steady-airfoils", "--airfoils=steady"}};
+struct RenamedValue {
+    std::string_view option, before, now;
+};
+constexpr std::array renamed_values{RenamedValue{"--wake", "quasi-steady", "equilibrium"},
+                                    RenamedValue{"--wake", "dynamic", "oye"}};
+
+// The value of an option, behind it or in the word after it.
+void rename_value(std::string& option, std::string* next) {
+    for (const auto& [name, before, now] : renamed_values) {
+        const bool own = option == text(name, "=", before), behind = option == name && next && *next == before;
+        if (!own && !behind) continue;
+        std::cerr << "note: " << name << " " << before << " is " << now << " now\n";
+        (own ? option : *next) = own ? text(name, "=", now) : std::string(now);
+        return;
+    }
+}
 
 // The words with the options' names of today. Results hold the command lines of earlier versions, for `cardan repeat`.
 std::vector<std::string> with_present_names(int argc, char** argv) {
@@ -224,6 +241,8 @@ std::vector<std::string> with_present_names(int argc, char** argv) {
         std::cerr << "note: " << found->before << " is " << found->now << " now\n";
         word.replace(0, end, found->now);
     }
+    for (std::size_t i = 0; i < words.size(); ++i)
+        rename_value(words[i], i + 1 < words.size() ? &words[i + 1] : nullptr);
     return words;
 }
 

@@ -79,8 +79,8 @@ public:
     /// The name of the subcommand that was given.
     std::string subcommand();
 
-    /// Reads the command line. Names that options had in earlier versions are read as well, and a note says the new
-    /// ones.
+    /// Reads the command line. Names that options and their values had in earlier versions are read as well, and a
+    /// note says the new ones.
     /// @return exit code to end with (0 after --help and --version, 2 for wrong usage), -1: go on
     [[nodiscard]] int parse(int argc, char** argv);
     /// Options with what their targets hold now, each as one word: "--rpm=12". Flags that are not set, what is empty

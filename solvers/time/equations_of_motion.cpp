@@ -245,6 +245,16 @@ bool EquationsOfMotion::accelerations(double time, const double* x, double* xdd)
 
 bool EquationsOfMotion::residual(double time, const double* x, const double* xdd, double* r) {
     expand(time, x);
+    return residual_there(xdd, r);
+}
+
+bool EquationsOfMotion::residual(double time, const double* x, const double* xdd, const double* driven, double* r) {
+    expand(time, x);
+    set_driven(driven);
+    return residual_there(xdd, r);
+}
+
+bool EquationsOfMotion::residual_there(const double* xdd, double* r) {
     for (std::size_t i = 0; i < free_.size(); ++i) now_.qdd(free_[i]) = xdd[i];
     if (!motion_finite() || !all_finite(now_.qdd, "acceleration")) return false;
     const Kinematics& kin = kin_.emplace(kinematics(model(), now_.q, workspace_));
@@ -263,12 +273,13 @@ bool EquationsOfMotion::linearise(double time, const double* x) {
 
 bool EquationsOfMotion::linearise(double time, const double* x, const double* driven) {
     expand(time, x);
-    for (const Drive& drive : drives_) {
-        now_.q(drive.coordinate) = *driven++;
-        now_.qd(drive.coordinate) = *driven++;
-        now_.qdd(drive.coordinate) = *driven++;
-    }
+    set_driven(driven);
     return derive();
+}
+
+void EquationsOfMotion::set_driven(const double* driven) {
+    for (const Drive& drive : drives_)
+        for (Vector* of : {&now_.q, &now_.qd, &now_.qdd}) (*of)(drive.coordinate) = *driven++;
 }
 
 void EquationsOfMotion::driven_state(double* out) const {

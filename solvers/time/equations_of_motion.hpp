@@ -102,6 +102,9 @@ public:
     /// Residual of the unknowns at given accelerations and rates.
     /// @param x, xdd  as above;  @param r  out, rates()
     bool residual(double time, const double* x, const double* xdd, double* r);
+    /// Where the driven coordinates are in this state, whatever their motions are now.
+    /// @param driven  driven_state()
+    bool residual(double time, const double* x, const double* xdd, const double* driven, double* r);
 
     /// Exact derivatives of the residual at a state and its accelerations: dr/dqdd = g, dr/dqd = C, dr/dq = S, kept
     /// until the next call. Those of the accelerations are -g^-1 S and -g^-1 C.
@@ -171,6 +174,8 @@ private:
     void evaluate_forces();
     void expand(double time, const double* x);
     void require_closed();
+    void set_driven(const double* driven);
+    bool residual_there(const double* xdd, double* r);
     bool solve(double time, const double* x);
     bool solve();
     bool derive();

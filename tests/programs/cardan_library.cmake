@@ -12,5 +12,5 @@ endfunction()
 add_library_test(simulate simulate simulate nrel5mw --wind 12 --controller baseline --duration 1 --step 0.05)
 add_library_test(campbell campbell campbell nrel5mw)
 add_library_test(campbell_wind "campbell in the wind" campbell nrel5mw --wind 8,12 --max-frequency 3)
-add_library_test(linearise linearise linearise nrel5mw --wind 15 --max-frequency 3 --azimuths 8 --wake quasi-steady
-                 --steady-airfoils)
+add_library_test(linearise linearise linearise nrel5mw --wind 15 --max-frequency 3 --azimuths 8 --wake equilibrium
+                 --airfoils steady)

@@ -28,8 +28,8 @@ expect simulate help si
 expect --blade-elements campbell nrel5mw --bl
 expect nrel5mw-spar modes nrel
 expect locked campbell wt600 --generator lo
-expect quasi-steady campbell nrel5mw --wake qu
-expect dynamic campbell nrel5mw --wake = dy
+expect equilibrium campbell nrel5mw --wake eq
+expect oye campbell nrel5mw --wake = oy
 expect none steady nrel5mw --wake =
 expect --blade-damping modes nrel5mw --blade-d
 expect wind wi

@@ -73,12 +73,12 @@ TEST_CASE("cardan campbell in the wind: the file of the command has the numbers 
 
 TEST_CASE("cardan linearise: the file of the command has the numbers of the library", "[.program][property]") {
     const turbines::Machine machine = turbines::read_machine("nrel5mw");
-    const turbines::MachineLinearModel linear = turbines::linear_model(
-        machine, {.wind = 15,
-                  .machine = coarse,
-                  .azimuths = 8,
-                  .max_frequency_hz = 3,
-                  .vibration = {.wake = turbines::Wake::quasi_steady, .unsteady_airfoils = false}});
+    const turbines::MachineLinearModel linear =
+        turbines::linear_model(machine, {.wind = 15,
+                                         .machine = coarse,
+                                         .azimuths = 8,
+                                         .max_frequency_hz = 3,
+                                         .air = {.wake = Wake::equilibrium, .airfoils = Airfoils::steady}});
     const test::Folder folder;
     solvers::write_hdf5(linear.model, linear.constant, folder / "own.h5");
     const auto own = solvers::Hdf5File::open(folder / "own.h5");

@@ -48,6 +48,15 @@ AirLags lags_of(const AirParts& parts) {
     return out;
 }
 
+// inflow_weights() of all sections.
+std::vector<double> weights_of(const AirParts& parts) {
+    const std::vector<double>& position = parts.airfoil->position;
+    std::vector<double> shares;
+    for (std::size_t k = 0; k < parts.blades.size(); ++k)
+        for (const double at : position) shares.push_back(at / position.back());
+    return inflow_weights(shares);
+}
+
 }  // namespace
 
 std::vector<StateInfo> states_of(const AirParts& parts, const std::vector<int>& blade_numbers) {
@@ -82,7 +91,7 @@ std::vector<ElementGroup> groups_of(const AirParts& parts, const std::vector<Bod
         ElementGroup& group = all.emplace_back();
         group.states.resize(static_cast<std::size_t>(states));
         std::iota(group.states.begin(), group.states.end(), parts.lags->first[i]);
-        const bool has_wake = parts.options.induction && parts.lags->sections[i].wake != WakeLag::frozen;
+        const bool has_wake = parts.options.induction && parts.lags->sections[i].wake != Wake::frozen;
         const std::vector<int>& seen = has_wake ? parts.bodies : parts.blades[i / count].path;
         group.coordinates.reserve(seen.size());
         for (const int body : seen) group.coordinates.push_back(entry(body_ids, body));
@@ -102,7 +111,7 @@ MachineAir MachineAir::lagging(UnsteadyAeroOptions options) const {
     if (!options.airfoils.empty() && options.airfoils.size() != blade.polars.size())
         throw InputError("air that lags", "number of airfoils", options.airfoils.size(),
                          text(blade.polars.size(), ", that of the blade's polars, or none"));
-    if (options.dynamic_inflow) require_positive("air that lags", "time of the wake [s]", options.inflow_time_constant);
+    require_not_negative("air that lags", "time of the wake [s]", options.inflow_time_constant);
     AirLags lags;
     lags.airfoils = std::make_shared<const std::vector<UnsteadyAirfoil>>(std::move(options.airfoils));
     const double tip = blade.position.back();
@@ -110,10 +119,15 @@ MachineAir MachineAir::lagging(UnsteadyAeroOptions options) const {
         for (std::size_t i = 0; i < blade.sections(); ++i) {
             UnsteadySection& section = lags.sections.emplace_back();
             if (!lags.airfoils->empty()) section.airfoil = &(*lags.airfoils)[blade.airfoil[i]];
-            if (!options.dynamic_inflow || !has_balance(own.sections[i].annulus, parts_->options)) continue;
-            section.wake = WakeLag::dynamic;
-            section.times = inflow_times(options.inflow_time_constant, blade.position[i] / tip);
+            section.at_rest = options.airfoils_at_rest;
+            section.share = blade.position[i] / tip;
+            if (options.dynamic_inflow && has_balance(own.sections[i].annulus, parts_->options))
+                section.wake = Wake::oye;
         }
+    if (options.dynamic_inflow) {
+        lags.inflow_time = options.inflow_time_constant;
+        lags.inflow_weights = weights_of(*parts_);
+    }
     return with(std::move(lags));
 }
 
@@ -127,8 +141,9 @@ MachineAir MachineAir::with_frozen_wake(std::span<const std::vector<std::vector<
     AirLags lags = lags_of(*parts_);
     const std::size_t count = parts_->airfoil->sections();
     const double share = 1 / static_cast<double>(states.size());
+    lags.inflow_weights.clear();
     for (UnsteadySection& section : lags.sections) {
-        section.wake = WakeLag::frozen;
+        section.wake = Wake::frozen;
         section.velocity.setZero();
     }
     for (const std::vector<std::vector<SectionAir>>& state : states) {
@@ -166,17 +181,23 @@ Vector MachineAir::steady_states(const ElementView& at) const {
     return out;
 }
 
+Vector MachineAir::with_states(const Vector& own, const Forces& forces) const {
+    const BoundElements& elements = forces.elements();
+    const std::vector<StateInfo>& infos = elements[elements.index(name_of_air)].states;
+    Vector all = forces.states().initial();
+    for (std::size_t i = 0; i < infos.size(); ++i)
+        all(forces.states().index(infos[i].name)) = own(static_cast<Eigen::Index>(i));
+    return all;
+}
+
 double MachineAir::inflow_time_constant(const ElementView& at) const {
-    const std::vector<std::vector<SectionAir>> now = sections(at);
-    std::vector<double> shares, axial;
-    double wind = 0;
-    for (const std::vector<SectionAir>& blade : now)
-        for (std::size_t i = 0; i < blade.size(); ++i) {
-            shares.push_back(parts_->airfoil->position[i] / parts_->airfoil->position.back());
-            axial.push_back(blade[i].induction.axial);
-            wind += blade[i].V_x / static_cast<double>(now.size() * blade.size());
-        }
-    return inflow_time(parts_->radius, mean_induction(shares, axial), wind);
+    AirParts parts = *parts_;
+    parts.lags = AirLags{};
+    parts.lags->sections.resize(parts.blades.size() * parts.airfoil->sections());
+    parts.lags->first.resize(parts.lags->sections.size());
+    parts.lags->inflow_weights = weights_of(parts);
+    Borrowed<AirScratch> scratch;
+    return AirEvaluation(parts, at, *scratch).inflow_time();
 }
 
 }  // namespace cardan::turbines

@@ -188,6 +188,9 @@ const Wind& MachineAir::wind() const {
 const TowerAir& MachineAir::support() const {
     return parts_->support;
 }
+bool MachineAir::has_induction() const {
+    return parts_->options.induction;
+}
 bool MachineAir::has_tower_influence() const {
     return parts_->influence.has_value();
 }

@@ -30,9 +30,12 @@ struct UnsteadyAeroOptions {
     /// Unsteady airfoils in the place of the blade's polars, one for each; those of cylinders and of the like lag in
     /// nothing. Empty: airfoils are steady.
     std::vector<UnsteadyAirfoil> airfoils = {};
-    bool dynamic_inflow =
-        false;  ///< DynamicInflow in every section but those without balance of momentum, root and tip
-    double inflow_time_constant = 0;  ///< tau_1 of a dynamic wake, s: MachineAir::inflow_time_constant()
+    bool airfoils_at_rest = false;  ///< they have no states, UnsteadySection::at_rest
+    /// DynamicInflow in every section but those without balance of momentum, root and tip
+    bool dynamic_inflow = false;
+    /// tau_1 of a dynamic wake, s: MachineAir::inflow_time_constant(); 0: that of every instant. Derivatives leave out
+    /// how it changes with the motion, which counts for induced velocities that are not in equilibrium alone.
+    double inflow_time_constant = 0;
 };
 
 /// Immutable, cheap to copy, may be used by several threads.
@@ -55,7 +58,7 @@ public:
     MachineAir in(const Wind& wind) const;
 
     /// A copy with air that lags. Functions of a state then take the states of the air as well: values().
-    /// @throws InputError for another number of airfoils than of polars, a time that is not positive
+    /// @throws InputError for another number of airfoils than of polars, a time that is negative
     MachineAir lagging(UnsteadyAeroOptions options) const;
     /// A copy whose induced velocities are those of a state for ever; airfoils lag as before.
     MachineAir with_frozen_wake(const ElementView& at) const;
@@ -71,6 +74,10 @@ public:
     ElementValues values(const StateView& at, const Forces& forces) const;
     /// States that stay as they are while the machine moves as it does.
     Vector steady_states(const ElementView& at) const;
+    /// All states of a machine with this air: these of the air, others as its table says.
+    /// @param own     steady_states()
+    /// @param forces  of on()
+    Vector with_states(const Vector& own, const Forces& forces) const;
     /// tau_1 of a dynamic wake by the mean induction and wind of a state, s: inflow_time().
     double inflow_time_constant(const ElementView& at) const;
 
@@ -104,6 +111,7 @@ public:
     const AeroBlade& blade() const;
     const Wind& wind() const;
     const TowerAir& support() const;   ///< drag of tower and nacelle
+    bool has_induction() const;        ///< the rotor induces velocities
     bool has_tower_influence() const;  ///< the tower changes the wind at the sections
     /// Azimuths of a revolution that means and harmonics need: with the tower's influence 144, for it is over within a
     /// few degrees (blades that are 120 deg apart see the tower from the same azimuths), else 1.

@@ -5,6 +5,7 @@
 #include "solvers/hdf5/campbell.hpp"
 #include "turbines/analysis/detail/rounded.hpp"
 #include "turbines/analysis/in_unit.hpp"
+#include "turbines/analysis/machine_wind.hpp"
 #include "turbines/analysis/prepared_machine.hpp"
 #include "turbines/analysis/rising.hpp"
 #include "turbines/analysis/wind_run.hpp"
@@ -158,8 +159,8 @@ CampbellDiagram over_wind(const Machine& machine, CampbellSettings s) {
                                      .cancelled = s.cancelled});
     check_size(run.ready.turbine);
     s.machine = run.options.machine;
-    const AeroelasticOptions air = aeroelastic_options(s.vibration, run.air);
-    const std::string words = in_words(air, run.air);
+    const AeroelasticOptions air = aeroelastic_options(run.air);
+    const std::string words = in_words(run.air.model);
     report_remark(s.report, {Remark::Kind::taken, text("air of the vibrations: ", words)});
     solvers::CampbellOptions modes = modes_of(s, run.machine, what);
     modes.floquet.harmonics = s.harmonics;

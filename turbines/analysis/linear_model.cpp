@@ -4,6 +4,7 @@
 #include "solvers/linear_models/multi_blade_model.hpp"
 #include "turbines/analysis/detail/linear_forms.hpp"
 #include "turbines/analysis/linear_signals.hpp"
+#include "turbines/analysis/machine_wind.hpp"
 #include "turbines/analysis/prepared_machine.hpp"
 #include "turbines/analysis/steady_rotation.hpp"
 #include "turbines/machine/machine_text.hpp"
@@ -111,8 +112,8 @@ MachineLinearModel at_operating_point(const Machine& machine, LinearModelSetting
     report_remark(s.report, {Remark::Kind::taken, in_words(run.ready.mesh)});
     find_points(run);
     if (run.points.empty()) throw NumericalError(text("no operating point at ", *s.wind, " m/s"));
-    AeroelasticOptions air = aeroelastic_options(s.vibration, run.air);
-    report_remark(s.report, {Remark::Kind::taken, text("air of the vibrations: ", in_words(air, run.air))});
+    AeroelasticOptions air = aeroelastic_options(run.air);
+    report_remark(s.report, {Remark::Kind::taken, text("air of the vibrations: ", turbines::in_words(run.air.model))});
     air.wind_input = true;
     s.rotor_speed = run.points.front().operation.rotor_speed;
     s.machine = run.options.machine;

@@ -9,6 +9,7 @@
 #include "turbines/readers/inflow_wind.hpp"
 #include "turbines/readers/wind_box_file.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace cardan::turbines {
@@ -67,11 +68,33 @@ Wind wind_of_standard(const IecWindName& name, const WindSite& site) {
 
 }  // namespace
 
+namespace {
+
+// The models that are asked for in the place of the machine's. Without data of lags airfoils are steady.
+void set_model(const AirSettings& settings, Aerodynamics& air) {
+    AirModel& model = air.model;
+    if (!air.options.induction) model.wake = Wake::none;
+    if (settings.wake) {
+        model.wake = *settings.wake;
+        model.wake_source.clear();
+    }
+    if (model.wake != Wake::oye) model.inflow_time_constant = 0;
+    if (settings.airfoils) {
+        model.airfoils = *settings.airfoils;
+        model.airfoils_source.clear();
+    }
+    if (std::ranges::none_of(air.unsteady_airfoils, &UnsteadyAirfoil::is_unsteady)) model.airfoils = Airfoils::steady;
+    if (model.airfoils == Airfoils::steady) air.unsteady_airfoils.clear();
+    air.options.induction = model.wake != Wake::none;
+}
+
+}  // namespace
+
 Aerodynamics air_of(const Machine& machine, const AirSettings& settings) {
     Aerodynamics air = machine.require_air();
     if (!settings.tower_nacelle) air.support = {};
     if (!settings.skewed_wake) air.options.skew = Skew::none;
-    if (!settings.induction) air.options.induction = false;
+    set_model(settings, air);
     if (settings.density) air.density = *settings.density;
     return air;
 }
@@ -148,19 +171,24 @@ double start_speed(const WindSource& source, const AirSettings& settings) {
     return wind_of(source, {.rotor_diameter = 100, .air = settings}).mean().speed;
 }
 
-std::string air_in_words(std::string_view wake, bool airfoils_unsteady) {
-    return text("wake ", wake, ", airfoils ", airfoils_unsteady ? "unsteady" : "steady");
+std::string in_words(const AirModel& model) {
+    const auto of = [](const std::string& source) { return source.empty() ? "" : text(" (", source, ")"); };
+    const double time = model.inflow_time_constant;
+    return text("wake ", name_of(model.wake), time > 0 ? text(" of ", rounded(time), " s") : "", of(model.wake_source),
+                ", airfoils ", name_of(model.airfoils), of(model.airfoils_source));
 }
 
 std::string air_in_equilibrium(const Aerodynamics& air) {
-    return air_in_words(air.options.induction ? name_of(Wake::quasi_steady) : "none", false);
+    return in_words(air.model) + ", in equilibrium with the motion of every instant";
 }
 
 std::string in_words(const AirSettings& settings) {
     const AirSettings& a = settings;
     return text("shear ", a.shear_exponent, ", direction ", a.propagation_direction * units::to_degrees,
                 " deg, upflow ", a.upflow * units::to_degrees, " deg", a.density ? text(", density ", *a.density) : "",
-                a.skewed_wake ? "" : ", no skew", a.tower_nacelle ? "" : ", no tower");
+                a.skewed_wake ? "" : ", no skew", a.tower_nacelle ? "" : ", no tower",
+                a.wake ? text(", wake ", name_of(*a.wake)) : "",
+                a.airfoils ? text(", airfoils ", name_of(*a.airfoils)) : "");
 }
 
 }  // namespace cardan::turbines

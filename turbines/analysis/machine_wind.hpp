@@ -7,11 +7,10 @@
 #include "turbines/machine/machine.hpp"
 
 #include <string>
-#include <string_view>
 
 namespace cardan::turbines {
 
-/// The machine's, with what the settings change.
+/// The machine's, with what the settings change: the models that hold, and unsteady airfoils only where they do.
 /// @throws InputError for a machine without airfoils
 Aerodynamics air_of(const Machine& machine, const AirSettings& settings);
 
@@ -35,11 +34,9 @@ std::string in_words(const Wind& wind);
 /// Speed of the wind at the hub that a run starts in, m/s.  @throws InputError, ParseError, FileError
 double start_speed(const WindSource& source, const AirSettings& settings);
 
-/// The air's unsteadiness in words: "wake dynamic, airfoils unsteady".
-/// @param wake  name_of(Wake), or "none"
-std::string air_in_words(std::string_view wake, bool airfoils_unsteady);
-/// The air of operating points and time histories in words: induced velocities, if there are any, and coefficients are
-/// always in equilibrium with the motion.
+/// "wake oye, airfoils unsteady", with what says so.
+std::string in_words(const AirModel& model);
+/// The air of operating points in words: induced velocities and coefficients do not lag there.
 std::string air_in_equilibrium(const Aerodynamics& air);
 /// Settings of the air in words, for the description of a run.
 std::string in_words(const AirSettings& settings);

@@ -64,13 +64,14 @@ struct MachineSettings {
 
 /// The air that a machine runs in, beside the speed of its wind.
 struct AirSettings {
-    double shear_exponent = 0;           ///< of the power law over the height; 0: the wind is uniform
-    double propagation_direction = 0;    ///< where the wind blows to, from downwind to the left, rad
-    double upflow = 0;                   ///< of the wind above the horizontal, rad
-    std::optional<double> density = {};  ///< kg/m^3; none: that of the airfoils' file
-    bool skewed_wake = true;             ///< the induction is redistributed in a skewed wake
-    bool tower_nacelle = true;           ///< the tower's influence on the wind, and the drag of tower and nacelle
-    bool induction = true;               ///< false: the rotor induces no velocities
+    double shear_exponent = 0;              ///< of the power law over the height; 0: the wind is uniform
+    double propagation_direction = 0;       ///< where the wind blows to, from downwind to the left, rad
+    double upflow = 0;                      ///< of the wind above the horizontal, rad
+    std::optional<double> density = {};     ///< kg/m^3; none: that of the airfoils' file
+    bool skewed_wake = true;                ///< the induction is redistributed in a skewed wake
+    bool tower_nacelle = true;              ///< the tower's influence on the wind, and the drag of tower and nacelle
+    std::optional<Wake> wake = {};          ///< none: as the machine's airfoils say (AirModel), else Wake::oye
+    std::optional<Airfoils> airfoils = {};  ///< none: likewise, else unsteady where there are data of lags
     /// Beside the grid of a turbulent wind, before its first and after its last plane.
     OutsideBox outside_box = OutsideBox::refuse;
     IecClass wind_class = {};  ///< of the machine and its site, for winds of IEC 61400-1 by name
@@ -200,12 +201,6 @@ struct OperationSettings {
     std::optional<double> tip_speed_ratio = {};    ///< below rated power; none: also that of the best power coefficient
 };
 
-/// Settings of how the air follows a vibration.
-struct VibrationSettings {
-    Wake wake = Wake::dynamic;      ///< induced velocities; without AirSettings::induction there are none
-    bool unsteady_airfoils = true;  ///< coefficients lag where the airfoils' data have lags
-};
-
 /// Settings of campbell(): over rotor speeds, or with `winds` in the air, over those.
 struct CampbellSettings {
     /// rad/s, >= 0, taken in rising order and each once; empty: from 0 to 1.2 times the machine's in 12 steps. None
@@ -227,7 +222,6 @@ struct CampbellSettings {
     ///@{
     AirSettings air = {};
     OperationSettings operation = {};
-    VibrationSettings vibration = {};
     bool floquet = false;          ///< Floquet's theory in the place of the mean over the azimuth
     bool all_air_motions = false;  ///< also all roots that are mostly states of the air
     int harmonics = 4;             ///< of the revolution, at first
@@ -261,9 +255,8 @@ struct LinearModelSettings {
     double error = 0.05;
     int order = 0;         ///< of the balanced model in the place of its error; 0: by that
     double azimuth = 0;    ///< rad, nearest to which a periodic model is given as a constant one
-    AirSettings air = {};  ///< with a wind, as the next two
+    AirSettings air = {};  ///< with a wind, as the next one
     OperationSettings operation = {};
-    VibrationSettings vibration = {};
     Report report = {};  ///< receives the remarks as they arise
     /// Asked often while the state is sought about which the model is linear; true: NumericalError.
     std::function<bool()> cancelled = {};

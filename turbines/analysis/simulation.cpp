@@ -103,9 +103,10 @@ void Simulation::Parts::set_model() {
     Mesh mesh;
     model = simulation_model(machine, settings, mesh, report());
     keep_elements(mesh, settings.machine);
-    const SimulationState start = start_of(model->at_start, settings, report());
+    const SimulationState start = start_of(*model, settings, report());
     drives = drives_of(machine, model->turbine.rotor().spin, start);
     integration = integration_of(settings, model->controllers);
+    integration.states = start.s;
     integrator.emplace(model->turbine.system(), drives, 0, start.q, start.qd, integration);
     recorder.emplace(*integrator, all_channels(*model, settings.stations));
 }

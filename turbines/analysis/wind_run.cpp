@@ -88,6 +88,7 @@ WindOperationOptions operation_options(const Machine& machine, const WindRunOpti
     in_wind.wind = wind_profile(turbine, machine, o.air, air.density);
     in_wind.air = air.options;
     in_wind.support = support_on(turbine, machine, air.support);
+    in_wind.airfoils = air.unsteady_airfoils;
     in_wind.harmonics = o.harmonics;
     in_wind.azimuths = o.azimuths;
     in_wind.cancelled = o.cancelled;
@@ -162,16 +163,10 @@ FinerPoint finer_point(const WindRun& run, const Operation& at) {
     return {std::move(operation), std::move(point)};
 }
 
-AeroelasticOptions aeroelastic_options(const VibrationSettings& settings, const Aerodynamics& air) {
-    AeroelasticOptions options;
-    // Without induced velocities none can lag.
-    if (air.options.induction) options.wake = settings.wake;
-    if (settings.unsteady_airfoils) options.airfoils = air.unsteady_airfoils;
-    return options;
-}
-
-std::string in_words(const AeroelasticOptions& options, const Aerodynamics& air) {
-    return air_in_words(air.options.induction ? name_of(options.wake) : "none", !options.airfoils.empty());
+AeroelasticOptions aeroelastic_options(const Aerodynamics& air) {
+    return {.wake = air.model.wake,
+            .inflow_time_constant = air.model.inflow_time_constant,
+            .airfoils = air.unsteady_airfoils};
 }
 
 }  // namespace cardan::turbines

@@ -65,9 +65,8 @@ struct FinerPoint {
 };
 FinerPoint finer_point(const WindRun& run, const Operation& at);
 
-/// Options of an aeroelastic diagram, with the lags that the airfoils have.
-AeroelasticOptions aeroelastic_options(const VibrationSettings& settings, const Aerodynamics& air);
-/// air_in_words()
-std::string in_words(const AeroelasticOptions& options, const Aerodynamics& air);
+/// Options of an aeroelastic diagram.
+/// @param air  air_of()
+AeroelasticOptions aeroelastic_options(const Aerodynamics& air);
 
 }  // namespace cardan::turbines

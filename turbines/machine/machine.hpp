@@ -2,6 +2,7 @@
 /// A machine with all that belongs to it: structure, air, operation, controller.
 #pragma once
 
+#include "elements/aerodynamics/air_model.hpp"
 #include "elements/aerodynamics/rigid_rotor.hpp"
 #include "elements/aerodynamics/tower.hpp"
 #include "elements/aerodynamics/unsteady_airfoil.hpp"
@@ -19,6 +20,7 @@ namespace cardan::turbines {
 struct Aerodynamics {
     AeroBlade blade;  ///< of all blades
     RotorAirOptions options = {};
+    AirModel model = {};     ///< Wake::none without induction of `options`
     double density = 1.225;  ///< kg/m^3
     /// Drag of tower and nacelle, tower influence. Heights as the file has them: support_on() sets the tower's foot.
     TowerNacelleAero support = {};

@@ -29,6 +29,7 @@ void refuse(const std::vector<ModelAddition>& additions) {
 Aerodynamics air_of(AeroDynFile file) {
     return {.blade = std::move(file.blade),
             .options = file.options,
+            .model = std::move(file.model),
             .density = file.density,
             .support = std::move(file.support),
             .unsteady_airfoils = std::move(file.airfoils),

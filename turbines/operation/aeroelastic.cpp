@@ -4,7 +4,6 @@
 #include "mbs/base/outcome.hpp"
 
 #include <algorithm>
-#include <array>
 #include <deque>
 #include <optional>
 #include <utility>
@@ -13,47 +12,20 @@ namespace cardan::turbines {
 
 namespace {
 
-constexpr std::array wake_names{std::pair{Wake::frozen, "frozen"}, std::pair{Wake::quasi_steady, "quasi-steady"},
-                                std::pair{Wake::dynamic, "dynamic"}};
-
-// Means over the revolution of what functions of the air say at its states.
-class Revolution {
-public:
-    Revolution(const WindOperatingPoint& point, const MachineAir& air, const Model& model)
-        : point_(point), air_(air), model_(model) {}
-
-    std::vector<std::vector<std::vector<SectionAir>>> sections() const {
-        std::vector<std::vector<std::vector<SectionAir>>> all;
-        all.reserve(point_.revolution.size());
-        each([&](const ElementView& at) { all.push_back(air_.sections(at)); });
-        return all;
+template <class F>
+void each_state(std::span<const DynamicState> revolution, const Model& model, const F& f) {
+    Workspace workspace(model);
+    for (const DynamicState& state : revolution) {
+        const Kinematics kin = kinematics(model, state.q, workspace);
+        f(StateView(state, kin));
     }
-    double inflow_time_constant() const {
-        double sum = 0;
-        each([&](const ElementView& at) { sum += air_.inflow_time_constant(at); });
-        return sum / static_cast<double>(point_.revolution.size());
-    }
-    /// @param air  that lags
-    Vector steady_states(const MachineAir& air) const {
-        Vector sum = Vector::Zero(air.states());
-        each([&](const ElementView& at) { sum += air.steady_states(at); });
-        return sum / static_cast<double>(point_.revolution.size());
-    }
+}
 
-private:
-    template <class F>
-    void each(const F& f) const {
-        Workspace workspace(model_);
-        for (const DynamicState& state : point_.revolution) {
-            const Kinematics kin = kinematics(model_, state.q, workspace);
-            f(StateView(state, kin));
-        }
-    }
-
-    const WindOperatingPoint& point_;
-    const MachineAir& air_;
-    const Model& model_;
-};
+double mean_inflow_time(const MachineAir& air, const Model& model, std::span<const DynamicState> revolution) {
+    double sum = 0;
+    each_state(revolution, model, [&](const ElementView& at) { sum += air.inflow_time_constant(at); });
+    return sum / static_cast<double>(revolution.size());
+}
 
 solvers::CampbellMethod method_for(const WindOperation& operation) {
     if (operation.is_constant()) return solvers::CampbellMethod::coleman;
@@ -64,16 +36,27 @@ solvers::CampbellMethod method_for(const WindOperation& operation) {
 
 }  // namespace
 
-std::string_view name_of(Wake wake) {
-    for (const auto& [value, name] : wake_names)
-        if (value == wake) return name;
-    return {};
+MachineAir air_about(const MachineAir& steady, const Model& model, std::span<const DynamicState> revolution,
+                     const AeroelasticOptions& options) {
+    const bool oye = options.wake == Wake::oye && steady.has_induction();
+    MachineAir air = steady;
+    if (oye || !options.airfoils.empty())
+        air = steady.lagging({.airfoils = options.airfoils,
+                              .dynamic_inflow = oye,
+                              .inflow_time_constant = options.inflow_time_constant});
+    if (options.wake == Wake::frozen && steady.has_induction()) {
+        std::vector<std::vector<std::vector<SectionAir>>> sections;
+        sections.reserve(revolution.size());
+        each_state(revolution, model, [&](const ElementView& at) { sections.push_back(steady.sections(at)); });
+        air = air.with_frozen_wake(sections);
+    }
+    return air;
 }
 
-Wake wake_named(std::string_view name, const char* option) {
-    for (const auto& [value, known] : wake_names)
-        if (name == known) return value;
-    throw InputError(option, "value", std::string(name), "frozen, quasi-steady or dynamic");
+Vector states_about(const MachineAir& air, const Model& model, std::span<const DynamicState> revolution) {
+    Vector sum = Vector::Zero(air.states());
+    each_state(revolution, model, [&](const ElementView& at) { sum += air.steady_states(at); });
+    return sum / static_cast<double>(revolution.size());
 }
 
 AeroelasticPoint aeroelastic(const WindOperation& operation, const WindOperatingPoint& point,
@@ -84,21 +67,18 @@ AeroelasticPoint aeroelastic(const WindOperation& operation, const WindOperating
     const Turbine& still = operation.machine_without_air();
     const Model& model = still.system().model;
     const MachineAir steady = operation.air_at(point.operation);
-    const Revolution revolution(point, steady, model);
-    UnsteadyAeroOptions lags{.airfoils = options.airfoils, .dynamic_inflow = options.wake == Wake::dynamic};
-    if (lags.dynamic_inflow) lags.inflow_time_constant = revolution.inflow_time_constant();
-    const bool nothing_lags = !lags.dynamic_inflow && lags.airfoils.empty();
-    const double inflow_time_constant = lags.inflow_time_constant;
-    MachineAir air = nothing_lags ? steady : steady.lagging(std::move(lags));
-    if (options.wake == Wake::frozen) air = air.with_frozen_wake(revolution.sections());
+    AeroelasticOptions own = options;
+    if (own.wake == Wake::oye && own.inflow_time_constant == 0)
+        own.inflow_time_constant = mean_inflow_time(steady, model, point.revolution);
+    MachineAir air = air_about(steady, model, point.revolution, own);
     if (options.wind_input) air = air.with_wind_input(wind_input);
     AeroelasticPoint out{.machine = air.on(still),
                          .air = air,
                          .start = {},
                          .state_start = {},
-                         .inflow_time_constant = inflow_time_constant};
+                         .inflow_time_constant = own.inflow_time_constant};
     out.start = point.coefficients.size() > 0 ? point.coefficients : Matrix(point.revolution.front().q);
-    if (air.states() > 0) out.state_start = revolution.steady_states(air);
+    if (air.states() > 0) out.state_start = states_about(air, model, point.revolution);
     return out;
 }
 

@@ -6,34 +6,36 @@
 ///     const solvers::Campbell diagram = turbines::aeroelastic_campbell(operation, points, {}, campbell_options);
 #pragma once
 
+#include "elements/aerodynamics/air_model.hpp"
 #include "solvers/campbell/diagram.hpp"
 #include "turbines/operation/wind_operation.hpp"
 
 #include <functional>
 #include <span>
-#include <string_view>
 
 namespace cardan::turbines {
 
-/// Way in which the induced velocities follow a vibration. A dynamic wake lies between the other two: frozen for what
-/// is much faster than 1 / (2 pi inflow_time_constant), quasi-steady for what is much slower.
-enum class Wake : std::uint8_t {
-    frozen,        ///< they stay, section by section, at their means over a revolution
-    quasi_steady,  ///< they are always in equilibrium with the loads
-    dynamic        ///< DynamicInflow, with the time constants of the operating point: four states a section
-};
-/// "frozen", "quasi-steady", "dynamic"
-std::string_view name_of(Wake wake);
-/// @throws InputError naming the option, for other names
-Wake wake_named(std::string_view name, const char* option);
-
+/// The air's answer to a vibration. A wake that lags lies between two others: frozen for what is much faster than
+/// 1 / (2 pi inflow_time_constant), in equilibrium for what is much slower.
 struct AeroelasticOptions {
-    Wake wake = Wake::quasi_steady;
+    Wake wake = Wake::oye;            ///< none where the air of the operation has no induction
+    double inflow_time_constant = 0;  ///< tau_1 of Wake::oye, s; 0: that of the operating point
     /// UnsteadyAeroOptions::airfoils; empty: the coefficients follow the angle of attack at once.
     std::vector<UnsteadyAirfoil> airfoils = {};
     /// The machine has the input "wind speed", for linear models: MachineAir::with_wind_input().
     bool wind_input = false;
 };
+
+/// Air of these models about a steady rotation, which a frozen wake keeps the means of.
+/// @param steady      air that does not lag
+/// @param model       of the machine
+/// @param revolution  of the machine in that air: states at equal steps, or one
+/// @param options     with an inflow_time_constant of 0 the time is that of every instant
+/// @throws InputError as MachineAir::lagging()
+MachineAir air_about(const MachineAir& steady, const Model& model, std::span<const DynamicState> revolution,
+                     const AeroelasticOptions& options);
+/// Means over the revolution of MachineAir::steady_states(), to start from.
+Vector states_about(const MachineAir& air, const Model& model, std::span<const DynamicState> revolution);
 
 /// A machine at an operating point with its air, and where its steady state is to be looked for. With air that lags the
 /// steady state is a little different from that of the operating point, which was found without: where it is periodic,

@@ -90,6 +90,7 @@ WindOperation::WindOperation(TurbineDescription description, AssemblyOptions opt
     options.pitch_drives = true;
     turbine_ = assemble(description_, options);
     air_.emplace(*turbine_, blade, options_.wind, options_.air, options_.support);
+    if (!options_.airfoils.empty()) air_ = air_->lagging({.airfoils = options_.airfoils, .airfoils_at_rest = true});
     if (options_.harmonics < 1) throw InputError("operation in the wind", "harmonics", options_.harmonics, ">= 1");
     if (options_.azimuths < 1) throw InputError("operation in the wind", "azimuths", options_.azimuths, ">= 1");
     options_.azimuths = std::max(options_.azimuths, air_->min_azimuths());

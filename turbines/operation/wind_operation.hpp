@@ -88,6 +88,9 @@ struct WindOperationOptions {
     /// Called after every point; false: no further ones.
     std::function<bool(const WindOperatingPoint&)> progress = {};
     TowerNacelleAero support = {};  ///< air on tower and nacelle; a tower that changes the wind makes states periodic
+    /// UnsteadyAeroOptions::airfoils, which are at rest in the motion of every instant; empty: the blade's polars. The
+    /// sections of a coned blade pitch about their own span as they turn, to which these answer.
+    std::vector<UnsteadyAirfoil> airfoils = {};
     /// Asked often while a point is sought; true: it does not converge, and says so.
     std::function<bool()> cancelled = {};
 };

@@ -65,14 +65,38 @@ const char* present(const OpenFastFile& file, const char* keyword, const char* o
     return file.has(keyword) ? keyword : older;
 }
 
-void read_wake(OpenFastFile& file, RotorAirOptions& options) {
+// What a keyword says of a model, for AirModel.
+std::string source_of(const OpenFastFile& file, const char* keyword, int value) {
+    return text(keyword, " = ", value, " in ", std::filesystem::path(file.name()).filename().string());
+}
+
+// The wake of DBEMT_Mod: 1 and 3 are filters and states of the same equations, with a constant time.
+void read_dynamic_wake(OpenFastFile& file, AirModel& model) {
+    constexpr std::array wakes{Wake::frozen, Wake::equilibrium, Wake::oye, Wake::oye, Wake::oye};  // from -1 on
+    const auto mode = static_cast<int>(file.number_or_default("DBEMT_Mod", 2));
+    if (mode < -1 || mode > 3) file.fail("DBEMT_Mod", text("DBEMT_Mod = ", mode, "; allowed: -1 ... 3"));
+    model.wake = entry(wakes, mode + 1);
+    model.wake_source = source_of(file, "DBEMT_Mod", mode);
+    if (mode != 1 && mode != 3) return;
+    model.inflow_time_constant = file.number("tau1_const");
+    if (!(model.inflow_time_constant > 0))
+        file.fail("tau1_const", text("tau1_const = ", model.inflow_time_constant, "; allowed: > 0"));
+}
+
+void read_wake(OpenFastFile& file, RotorAirOptions& options, AirModel& model) {
     const char* const keyword = present(file, "Wake_Mod", "WakeMod");
     const int wake = choice(file, "Wake_Mod", "WakeMod", 1);
     options.induction = wake != 0;
-    if (wake == 2) file.left_out(keyword, "the wake is in equilibrium here");
-    if (wake == 3) file.left_out(keyword, "no free vortices here, but blade-element momentum");
-    if (file.number_or_default("DBEMT_Mod", 0) > 0 && (wake == 2 || file.has("Wake_Mod")))
-        file.left_out("DBEMT_Mod", "the wake is in equilibrium here");
+    // DBEMT_Mod counts beside WakeMod 2, and beside Wake_Mod 1.
+    const bool by_mode = file.has("DBEMT_Mod") && (wake == 2 || (wake == 1 && file.has("Wake_Mod")));
+    if (wake == 3) {
+        file.left_out(keyword, "no free vortices here, but blade-element momentum");
+    } else if (by_mode) {
+        read_dynamic_wake(file, model);
+    } else {
+        model.wake = wake == 0 ? Wake::none : wake == 2 ? Wake::oye : Wake::equilibrium;
+        model.wake_source = source_of(file, keyword, wake);
+    }
     if (file.number_or_default("BEM_Mod", 1) == 2)
         file.note("BEM_Mod", "the balance of momentum is along the blade's own normal here, with Buhl's relation (1)");
 }
@@ -154,15 +178,15 @@ UnsteadyAirfoilModel airfoil_model(OpenFastFile& file) {
                                                      : UnsteadyAirfoilModel::beddoes_leishman;
 }
 
-// Do the files ask for airfoils that lag? The models of UA_Mod are several, here are two.
-bool read_unsteady(OpenFastFile& file) {
-    const int model = choice(file, "UA_Mod", "UAMod", 0);
-    if (model == 0 || file.number_or_default("AFAeroMod", 2) == 1) return false;
-    const bool same = model == hansen || model == oye;
-    file.note(present(file, "UA_Mod", "UAMod"),
-              same ? "airfoils lag where that is asked for; else they are steady here"
-                   : "where that is asked for airfoils lag as with UA_Mod = 4; else they are steady here");
-    return true;
+// The models of UA_Mod are several, here are two.
+void read_unsteady(OpenFastFile& file, AirModel& model) {
+    const bool older = !file.has("UA_Mod") && file.has("AFAeroMod");
+    const int mode = choice(file, "UA_Mod", "UAMod", 0);
+    const bool lags = mode != 0 && !(older && file.number_or_default("AFAeroMod", 2) == 1);
+    model.airfoils = lags ? Airfoils::unsteady : Airfoils::steady;
+    const char* const keyword = present(file, "UA_Mod", "UAMod");
+    model.airfoils_source = older && !lags ? source_of(file, "AFAeroMod", 1) : source_of(file, keyword, mode);
+    if (lags && mode != hansen && mode != oye) file.note(keyword, "airfoils lag as with UA_Mod = 4 here");
 }
 
 double part_of_radius(OpenFastFile& file, const char* keyword, double otherwise) {
@@ -231,7 +255,7 @@ AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, d
     if (!(out.density > 0)) file.fail("AirDens", text("AirDens = ", out.density, "; allowed: > 0"));
     const double kinematic = file.number_or_default("KinVisc", viscosity);
     if (!(kinematic > 0)) file.fail("KinVisc", text("KinVisc = ", kinematic, "; allowed: > 0"));
-    read_wake(file, out.options);
+    read_wake(file, out.options, out.model);
     read_skew(file, out.options);
     out.options.momentum = {.tip_loss = file.flag("TipLoss"),
                             .hub_loss = file.flag("HubLoss"),
@@ -239,9 +263,10 @@ AeroDynFile read_aerodyn(const std::filesystem::path& path, double hub_radius, d
                             .rotation = file.flag("TanInd"),
                             .tangential_drag = file.flag("TIDrag")};
     out.support = {read_tower(file), read_nacelle(file)};
-    out.unsteady = read_unsteady(file);
+    read_unsteady(file, out.model);
     out.airfoils = read_airfoils(file, out.notes);
-    if (out.unsteady && std::ranges::any_of(out.airfoils, [](const auto& one) { return one.polar().over_reynolds(); }))
+    if (out.model.airfoils == Airfoils::unsteady &&
+        std::ranges::any_of(out.airfoils, [](const auto& one) { return one.polar().over_reynolds(); }))
         file.note("AFTabMod", "airfoils that lag are those of the first Reynolds number here");
     const auto blade = [](int k) { return text("ADBlFile(", k, ")"); };
     out.source = text("# ", path.string(), "\n", file.text());

@@ -117,7 +117,10 @@ bool Stepper::repeat(const MethodState& from, double stop) {
 }
 
 int step_memory(const EquationsOfMotion& equations) {
-    const int of_alpha = 2 + 3 * equations.rates(), of_newton = 1 + Renewal::memory + NewtonMatrix::memory(equations);
+    // NewtonMatrix::memory(), and the accelerations: where a matrix of generalised_alpha was formed.
+    const int of_matrix = 1 + NewtonMatrix::memory(equations) + equations.rates(),
+              of_alpha = 2 + 3 * equations.rates() + of_matrix,
+              of_newton = 1 + Renewal::memory + NewtonMatrix::memory(equations);
     return 2 + std::max(of_alpha, of_newton);
 }
 

@@ -62,6 +62,7 @@ private:
     bool iterate(double h);
     bool iterate(double h, Tangent tangent);
     void form_matrix(double h);
+    void recall_matrix(const double* memory);
     // d qdd / d q and d qd / d q at the end of a step.
     double per_position(double h) const { return (1 - alpha_.m) / ((1 - alpha_.f) * alpha_.beta * h * h); }
     double per_rate(double h) const { return alpha_.gamma / (alpha_.beta * h); }
@@ -83,8 +84,12 @@ private:
     Vector a_start_, jerk_, change_, w_, errors_;
     bool has_jerk_ = false;
     TangentFactors matrix_;
-    double matrix_step_ = 0;  ///< it was formed for; 0: it has to be formed anew
-    double contraction_ = 1;  ///< of the iteration with it
+    // Where the matrix was formed, and for what step; 0: it has to be formed anew.
+    struct Formed {
+        double step = 0, time = 0;
+        Vector x, qdd, u, driven;
+    } formed_;
+    double contraction_ = 1;  ///< of the iteration with the matrix
     IntegrationStatistics statistics_;
 };
 
@@ -106,6 +111,10 @@ AlphaStepper::AlphaStepper(EquationsOfMotion& equations, const IntegrationOption
     }
     for (Vector* v : {&a_start_, &jerk_, &change_}) v->setZero(m_ + k_);
     for (Vector* v : {&w_, &errors_}) v->setZero(2 * m_ + k_);
+    formed_.x.setZero(2 * m_ + k_);
+    formed_.qdd.setZero(m_ + k_);
+    formed_.u = equations.inputs();
+    formed_.driven.setZero(3 * std::ssize(equations.drives()));
     statistics_.order = 2;
 }
 
@@ -119,7 +128,7 @@ void AlphaStepper::do_start(double time, const double* x, double stop) {
     to_.a = to_.qdd;
     last_ = next_ = 0;
     has_jerk_ = false;
-    matrix_step_ = 0;  // forces may have changed
+    formed_.step = 0;  // forces may have changed
 }
 
 void AlphaStepper::renew(double time, const double* x) {
@@ -131,12 +140,17 @@ void AlphaStepper::renew(double time, const double* x) {
     has_jerk_ = false;
 }
 
-// The step to come, the last one, whether there is a derivative of the accelerations; both accelerations and that.
+// The step to come, the last one, whether there is a derivative of the accelerations; both accelerations and that; the
+// matrix.
 void AlphaStepper::remember(double* memory) const {
     memory[0] = controlled() ? next_ : fixed_step_;
     memory[2] = last_;
     memory[3] = has_jerk_ ? 1 : 0;
     Eigen::Map<Vector>(memory + 4, 3 * (m_ + k_)) << to_.qdd, to_.a, jerk_;
+    double* out = memory + 4 + 3 * (m_ + k_);
+    for (const double number : {formed_.step, formed_.time, contraction_}) *out++ = number;
+    for (const Vector* part : {&formed_.x, &formed_.qdd, &formed_.u, &formed_.driven})
+        out = std::copy(part->begin(), part->end(), out);
 }
 
 void AlphaStepper::do_resume(double time, const double* x, double stop, const double* memory) {
@@ -151,7 +165,32 @@ void AlphaStepper::do_resume(double time, const double* x, double stop, const do
     to_.qdd = accelerations.head(size);
     to_.a = accelerations.segment(size, size);
     jerk_ = accelerations.tail(size);
-    matrix_step_ = 0;
+    recall_matrix(memory + 4 + 3 * size);
+}
+
+// The matrix that was remembered, to the last digit: the one that there is, or formed anew.
+void AlphaStepper::recall_matrix(const double* memory) {
+    Formed there = formed_;
+    const double* in = memory + 3;
+    there.step = memory[0];
+    there.time = memory[1];
+    for (Vector* part : {&there.x, &there.qdd, &there.u, &there.driven}) {
+        std::copy_n(in, part->size(), part->data());
+        in += part->size();
+    }
+    if (there.step != formed_.step || there.time != formed_.time || there.x != formed_.x || there.qdd != formed_.qdd ||
+        there.u != formed_.u || there.driven != formed_.driven) {
+        formed_.step = 0;
+        if (there.step == 0) return;
+        const Vector inputs = equations_.inputs();
+        equations_.set_inputs(there.u);
+        if (equations_.residual(there.time, there.x.data(), there.qdd.data(), there.driven.data(), change_.data())) {
+            form_matrix(there.step);
+            formed_ = there;
+        }
+        equations_.set_inputs(inputs);
+    }
+    contraction_ = memory[2];
 }
 
 // So short that the acceleration moves nothing by more than the tolerance; it grows fast.
@@ -213,16 +252,16 @@ void AlphaStepper::predict(double h) {
 void AlphaStepper::form_matrix(double h) {
     equations_.linearise_residual();
     matrix_.form({.qdd = per_position(h), .qd = per_rate(h), .q = 1, .s_rate = per_state(h), .s = 1});
-    matrix_step_ = h;
+    formed_.step = h;
+    formed_.u = equations_.inputs();
+    equations_.driven_state(formed_.driven.data());
     contraction_ = 1;
-    ++statistics_.jacobians;
-    ++statistics_.factorisations;
 }
 
 // Newton's method for the accelerations at the end, in terms of the positions there. The matrix is kept from step to
 // step as long as the iteration contracts well with it.
 bool AlphaStepper::iterate(double h) {
-    if (matrix_step_ > 0 && std::abs(h / matrix_step_ - 1) < 0.3) {
+    if (formed_.step > 0 && std::abs(h / formed_.step - 1) < 0.3) {
         if (iterate(h, Tangent::kept)) return true;
         predict(h);
     }
@@ -235,11 +274,19 @@ bool AlphaStepper::iterate(double h, Tangent tangent) {
         ++statistics_.evaluations;
         ++statistics_.iterations;
         if (!equations_.residual(begin_ + h, to_.x.data(), to_.qdd.data(), change_.data())) return false;
-        if (tangent == Tangent::fresh && (i == 0 || contraction_ > 0.3)) form_matrix(h);
+        // How well it contracts with a new one is known after the next.
+        if (tangent == Tangent::fresh && (i == 0 || (i > 1 && contraction_ > 0.3))) {
+            form_matrix(h);
+            ++statistics_.jacobians;
+            ++statistics_.factorisations;
+            formed_.time = begin_ + h;
+            formed_.x = to_.x;
+            formed_.qdd = to_.qdd;
+        }
         matrix_.solve(change_);
         if (!change_.allFinite()) return false;
         // What dominates a matrix of another step grows with 1/h^2: half of that is made up for.
-        change_ *= 2 / (1 + per_position(h) / per_position(matrix_step_));
+        change_ *= 2 / (1 + per_position(h) / per_position(formed_.step));
         to_.qdd.head(m_) -= per_position(h) * change_.head(m_);
         to_.qdd.tail(k_) -= per_state(h) * change_.tail(k_);
         correct(h);

@@ -62,8 +62,10 @@ LaggingCase random_lagging(Random& random, const std::vector<UnsteadyAirfoil>& a
                     SectionStates::Zero(),
                     {}};
     if (i % 2 == 0) out.lags.airfoil = &airfoil;
-    out.lags.wake = std::array{WakeLag::none, WakeLag::dynamic, WakeLag::frozen}.at(static_cast<std::size_t>(i % 3));
-    out.lags.times = inflow_times(uniform(random, 2, 20), 0.7);
+    out.lags.wake = std::array{Wake::equilibrium, Wake::oye, Wake::frozen}.at(static_cast<std::size_t>(i % 3));
+    out.lags.at_rest = i % 5 == 0;
+    out.lags.share = 0.7;
+    out.motion.wake.time = uniform(random, 2, 20);
     out.lags.velocity = {-0.2 * out.motion.V_x, 0.01 * out.motion.V_y};
     return out;
 }
@@ -79,7 +81,7 @@ TEST_CASE("lagging section: derivatives are those of loads and rates", "[propert
         LaggingCase at = random_lagging(random, airfoils, i);
         at.s = steady_states(at.annulus, at.motion, options, at.lags);
         for (int k = 0; k < at.lags.states(); ++k) at.s(k) += uniform(random, -0.05, 0.05);
-        if (at.lags.has_airfoil()) at.s(at.lags.states() - 1) = uniform(random, 0.1, 0.9);  // within its limits
+        if (at.lags.airfoil_states() > 0) at.s(at.lags.states() - 1) = uniform(random, 0.1, 0.9);  // within its limits
         const LaggingAir air = lagging_air(at.annulus, at.motion, at.s, options, 1.2, at.lags);
         const LaggingSlopes slopes = lagging_slopes(at.annulus, air, at.motion, at.s, options, 1.2, at.lags);
         const Response size = at.response(options).cwiseAbs();
@@ -123,7 +125,7 @@ TEST_CASE("lagging section: at rest the wake is in equilibrium, and airfoils are
 
         at.lags.airfoil = nullptr;
         at.annulus.polar = polar;
-        at.lags.wake = WakeLag::frozen;
+        at.lags.wake = Wake::frozen;
         at.lags.velocity = DynamicInflow::velocity(steady.induction, at.motion.V_x, at.motion.V_y);
         const LaggingAir frozen = lagging_air(at.annulus, at.motion, {}, options, 1.2, at.lags);
         CHECK(frozen.air.force.normal == Approx(steady.force.normal).epsilon(1e-10));

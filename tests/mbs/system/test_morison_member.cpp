@@ -163,8 +163,9 @@ TEST_CASE("Morison member: as heavy as water and without drag it moves with the 
     Afloat at(member, wave);
     const State state = still(at, 1.1);
     Vector qdd = state.q, actuator = state.q;
+    const Vector Q = at.Q(state);
     ForwardDynamics forward(at.system.model);
-    forward.solve(at.kin(state.q), state.qd, at.Q(state), qdd, actuator);
+    forward.solve(at.kin(state.q), state.qd, Q, qdd, actuator);
     const double turn = qdd(at.free().hinges[1]);  // the wave is a little stronger above
     CHECK(qdd(at.free().slides[0]) - 10.25 * turn ==
           Approx(wave.at(Vec3(0, 0, -10.25), 1.1).acceleration.x()).epsilon(1e-3));

@@ -131,6 +131,48 @@ TEST_CASE("lagging air on a machine: in equilibrium it is that without lags", "[
     }
 }
 
+// Of a wake that is out of equilibrium, with a constant time as large as that of the instant.
+TEST_CASE("lagging air on a machine: the time constant of the instant is that of its induction and wind",
+          "[crosscheck]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
+    const MachineAir air(machine, nrel5mw_aero_blade(), sheared);
+    Lagging plain(machine, air);
+    Lagging varying(machine, air.lagging({.dynamic_inflow = true}));
+    for (const double speed : {1.1, 0.7, 1.6}) {
+        plain.state().qd(machine.rotor().spin) = varying.state().qd(machine.rotor().spin) = speed;
+        const double time = air.inflow_time_constant(plain.at());
+        CHECK(time > 1);
+        CHECK(time < 100);
+        Lagging constant(machine, air.lagging({.dynamic_inflow = true, .inflow_time_constant = time}));
+        constant.state().qd(machine.rotor().spin) = speed;
+        constant.s = varying.s = 0.8 * varying.steady_states();
+        const Vector own = varying.response(), expected = constant.response();
+        CHECK((own - expected).norm() < 1e-12 * expected.norm());
+        Lagging slower(machine, air.lagging({.dynamic_inflow = true, .inflow_time_constant = 2 * time}));
+        slower.state().qd(machine.rotor().spin) = speed;
+        slower.s = varying.s;
+        const auto states = varying.s.size();
+        CHECK((2 * slower.response().tail(states) - own.tail(states)).norm() < 1e-12 * own.tail(states).norm());
+    }
+}
+
+TEST_CASE("lagging air on a machine: airfoils at rest have the loads of states that stay", "[crosscheck]") {
+    const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
+    const MachineAir air(machine, nrel5mw_aero_blade(), sheared);
+    const std::vector<UnsteadyAirfoil> airfoils = nrel5mw_unsteady_airfoils();
+    const MachineAir still = air.lagging({.airfoils = airfoils, .airfoils_at_rest = true});
+    CHECK(still.states() == 0);
+    Lagging at_rest(machine, still), lagging(machine, air.lagging({.airfoils = airfoils})), plain(machine, air);
+    for (const double speed : {1.1, 0.3, 0.0, -0.5}) {
+        for (Lagging* one : {&at_rest, &lagging, &plain}) one->state().qd(machine.rotor().spin) = speed;
+        lagging.s = lagging.steady_states();
+        const Vector own = at_rest.response(), expected = lagging.response().head(own.size());
+        CHECK((own - expected).norm() < 1e-9 * expected.norm());
+        // Blades are coned, and move.
+        if (speed > 1) CHECK((own - plain.response()).norm() > 1e-4 * expected.norm());
+    }
+}
+
 TEST_CASE("lagging air on a machine: a frozen wake holds the induced velocities", "[crosscheck]") {
     const Turbine machine = nrel5mw(Nrel5mwVariant::report, 2, 1);
     const MachineAir air(machine, nrel5mw_aero_blade(), sheared);
@@ -167,7 +209,8 @@ TEST_CASE("lagging air on a machine: names and groups of the states; what is ref
           4 * plain.lagging({.airfoils = one_state}).states());
     const Lagging oye(machine, plain.lagging({.airfoils = one_state}));
     CHECK(oye.forces().states()[0].name == "blade 1 section 5 point of separation");
-    check_refused([&] { static_cast<void>(plain.lagging({.dynamic_inflow = true})); }, {"time of the wake [s] = 0"});
+    check_refused([&] { static_cast<void>(plain.lagging({.dynamic_inflow = true, .inflow_time_constant = -1})); },
+                  {"time of the wake [s] = -1"});
     std::vector<UnsteadyAirfoil> few = nrel5mw_unsteady_airfoils();
     few.pop_back();
     check_refused([&] { static_cast<void>(plain.lagging({.airfoils = few})); }, {"number of airfoils = 7", "8"});

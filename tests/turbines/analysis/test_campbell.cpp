@@ -87,7 +87,7 @@ TEST_CASE("campbell of a machine in the wind: what is cancelled has the modes of
     CampbellSettings settings{.winds = {8, 9, 10},
                               .machine = coarse,
                               .max_frequency_hz = 2,
-                              .vibration = {.wake = Wake::frozen, .unsteady_airfoils = false},
+                              .air = {.wake = Wake::frozen, .airfoils = Airfoils::steady},
                               .harmonics = 1};
     const CampbellDiagram whole = campbell(machine, settings);
     REQUIRE(whole.complete);

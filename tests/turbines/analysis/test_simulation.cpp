@@ -128,7 +128,7 @@ TEST_CASE("simulation: what was not given is told and filled in", "[property]") 
     CHECK(run.settings().machine.blade_elements == 1);
     CHECK(run.settings().controller.individual_pitch == false);
     CHECK(has(told, Remark::Kind::taken, "start: 12.1 rpm, pitch "));
-    CHECK(has(told, Remark::Kind::taken, "air of the run: wake quasi-steady, airfoils steady"));
+    CHECK(has(told, Remark::Kind::taken, "air of the run: wake oye, airfoils unsteady"));
     CHECK(has(told, Remark::Kind::taken, "controller: pitch prescribed"));
     CHECK(run.remarks().size() == told.size());
     CHECK(run.title() == nrel5mw().description.name);

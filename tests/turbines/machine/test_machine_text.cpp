@@ -263,7 +263,7 @@ TEST_CASE("machine yaml: what does not fit together is refused with file, line a
     const Model model;
     const std::string whole = to_yaml(read_machine(model.main()));
     CHECK_THAT(message_after(whole, "\nair:\n", "\nair:\n  colour: red\n"),
-               Contains("air.colour: not a key of the format; allowed: airfoils, blade"));
+               Contains("air.colour: not a key of the format; allowed: airfoil_model, airfoils"));
     CHECK_THAT(message_after(whole, "    airfoil: [1, ", "    airfoil: [9, "),
                Contains("m.yaml:") && Contains("air: blade: airfoil = 9; allowed: 1 ... "));
     CHECK_THAT(message_after(whole, "    chord: [", "    chord: [1, "), Contains("m.yaml:") && Contains("air: "));

@@ -120,7 +120,7 @@ void check_modes(const std::string& file, const std::vector<UnsteadyAirfoil>& ai
             const Operation operation{at("wind"), at("speed") * units::rpm, at("pitch") * units::degree};
             vacuo[at("wind")] = machine.in_vacuo(operation.rotor_speed);  // pitch zero, as the table's
             windy[key] =
-                machine.modes(operation, {.wake = frozen ? Wake::frozen : Wake::quasi_steady, .airfoils = airfoils});
+                machine.modes(operation, {.wake = frozen ? Wake::frozen : Wake::equilibrium, .airfoils = airfoils});
         }
         const std::string name = mode_names.at(static_cast<std::size_t>(at("mode")) - 1);
         const double own = windy[key].natural.at(name) / vacuo[at("wind")].natural.at(name),
@@ -169,7 +169,7 @@ void check_modes_in_shapes(const std::string& file, const std::vector<UnsteadyAi
         if (modes.empty()) {
             const WindOperatingPoint point =
                 machine.at({at("wind"), at("speed") * units::rpm, at("pitch") * units::degree});
-            const AeroelasticOptions air{.wake = frozen ? Wake::frozen : Wake::quasi_steady, .airfoils = airfoils};
+            const AeroelasticOptions air{.wake = frozen ? Wake::frozen : Wake::equilibrium, .airfoils = airfoils};
             modes = modes_in_shapes(aeroelastic(machine.operation(), point, air), at("speed") * units::rpm);
         }
         const double zeta = at("damping"), omega = 2 * pi * at("frequency");
@@ -208,13 +208,13 @@ TEST_CASE("aeroelastic modes: all of them in ElastoDyn's shapes", "[discrete]") 
 
 // Without losses: where Prandtl's factor vanishes, in the last and the first section, a dynamic wake does not lag (no
 // load is there whatever the motion), while with a frozen one the induced velocity stays and a motion makes a load.
-TEST_CASE("aeroelastic modes: a dynamic wake is frozen if its time is long, and quasi-steady if it is short",
+TEST_CASE("aeroelastic modes: a dynamic wake is frozen if its time is long, and in equilibrium if it is short",
           "[property]") {
     LevelMachine machine(3, 2, false);
     const Operation operation{8, 9.156 * units::rpm, 0};
     const WindOperatingPoint point = machine.at(operation);
     const Turbine& still = machine.operation().machine_without_air();
-    const AeroelasticPoint start = aeroelastic(machine.operation(), point, {.wake = Wake::dynamic});
+    const AeroelasticPoint start = aeroelastic(machine.operation(), point, {.wake = Wake::oye});
     const auto with_time = [&](double time) {
         const MachineAir air =
             machine.operation().air_at(operation).lagging({.dynamic_inflow = true, .inflow_time_constant = time});
@@ -230,15 +230,20 @@ TEST_CASE("aeroelastic modes: a dynamic wake is frozen if its time is long, and 
         return frequencies(solvers::campbell(one, "case", options));
     };
     check_alike(machine.modes(operation, {.wake = Wake::frozen}), with_time(1e5), 1e-3);
-    check_alike(machine.modes(operation, {.wake = Wake::quasi_steady}), with_time(1e-5), 1e-3);
+    check_alike(machine.modes(operation, {.wake = Wake::equilibrium}), with_time(1e-5), 1e-3);
     CHECK(start.inflow_time_constant > 1);
     CHECK(start.inflow_time_constant < 100);
 }
 
 TEST_CASE("aeroelastic modes: names of wakes, points without a state", "[validation]") {
-    for (const Wake wake : {Wake::frozen, Wake::quasi_steady, Wake::dynamic})
+    for (const Wake wake : {Wake::none, Wake::frozen, Wake::equilibrium, Wake::oye})
         CHECK(wake_named(name_of(wake), "--wake") == wake);
-    check_refused([] { wake_named("frosty", "--wake"); }, {"--wake", "frosty", "quasi-steady"});
+    check_refused([] { wake_named("frosty", "--wake"); }, {"--wake", "frosty", "none, frozen, equilibrium or oye"});
+    check_refused([] { wake_named("quasi-steady", "--wake"); }, {"--wake", "quasi-steady", "equilibrium"});
+    check_refused([] { wake_named("dynamic", "--wake"); }, {"--wake", "dynamic", "oye"});
+    for (const Airfoils airfoils : {Airfoils::steady, Airfoils::unsteady})
+        CHECK(airfoils_named(name_of(airfoils), "--airfoils") == airfoils);
+    check_refused([] { airfoils_named("lagging", "--airfoils"); }, {"--airfoils", "lagging", "steady or unsteady"});
     const LevelMachine machine(2, 1);
     check_refused([&] { aeroelastic(machine.operation(), {}, {}); }, {"states of a revolution", "not converged"});
     check_refused([&] { aeroelastic_campbell(machine.operation(), {}, {}, {}); }, {"operating points"});

@@ -102,7 +102,10 @@ TEST_CASE("aerodyn: sections, polars and options of newer files", "[analytic]") 
     CHECK(blade.polars[0].at(10 * units::degree).moment == Approx(-0.1));
     CHECK(blade.polars[1].at(1).drag == Approx(0.5));
     CHECK_NOTHROW(blade.check());
-    CHECK(test::has_note(file.notes, "UA_Mod", "airfoils lag where that is asked for"));
+    CHECK(file.model.wake == Wake::equilibrium);
+    CHECK(file.model.wake_source == "DBEMT_Mod = 0 in main.dat");
+    CHECK(file.model.airfoils == Airfoils::unsteady);
+    CHECK(file.model.airfoils_source == "UA_Mod = 4 in main.dat");
     CHECK(test::has_note(file.notes, "ADBlFile(3)", "the sections of the first one"));
     CHECK(!test::has_note(file.notes, "ADBlFile(2)", "the sections of the first one"));
 }
@@ -122,6 +125,40 @@ TEST_CASE("aerodyn: older files, and what is left out", "[analytic]") {
     CHECK(!file.options.induction);
     CHECK(file.options.skew == Skew::pitt_peters);
     CHECK(file.blade.polars[0].at(0.1).moment == 0);
+}
+
+TEST_CASE("aerodyn: models of wake and airfoils that the files ask for", "[analytic]") {
+    const auto model_of = [](const std::string& text, const char* line, const std::string& other) {
+        const Model model(text);
+        model.replace("main.dat", line, other);
+        return model.read().model;
+    };
+    const auto with_mode = [&](const std::string& mode) { return model_of(newer, "0 DBEMT_Mod", mode + " DBEMT_Mod"); };
+    CHECK(with_mode("-1").wake == Wake::frozen);
+    CHECK(with_mode("0").wake == Wake::equilibrium);
+    CHECK(with_mode("2").wake == Wake::oye);
+    CHECK(with_mode("2").inflow_time_constant == 0);
+    for (const char* constant : {"1", "3"}) {
+        const AirModel model = with_mode(std::string("4.5 tau1_const - s\n") + constant);
+        CHECK(model.wake == Wake::oye);
+        CHECK(model.inflow_time_constant == 4.5);
+    }
+    check_error([&] { with_mode("4"); }, {"main.dat", "DBEMT_Mod = 4", "-1 ... 3"});
+    check_error([&] { with_mode("0 tau1_const - s\n1"); }, {"main.dat", "tau1_const = 0", "> 0"});
+    // Where nothing is said of it, or it cannot be had, the defaults hold.
+    const AirModel vortices = model_of(newer, "1 Wake_Mod", "3 Wake_Mod");
+    CHECK(vortices.wake == Wake::oye);
+    CHECK(vortices.wake_source.empty());
+    CHECK(model_of(newer, "1 Wake_Mod", "0 Wake_Mod").wake == Wake::none);
+    CHECK(model_of(newer, "4 UA_Mod", "0 UA_Mod").airfoils == Airfoils::steady);
+    // DBEMT_Mod is of no effect beside WakeMod 1.
+    CHECK(model_of(older, "1 WakeMod", "2 DBEMT_Mod - varies\n1 WakeMod").wake == Wake::equilibrium);
+    CHECK(model_of(older, "1 WakeMod", "2 DBEMT_Mod - varies\n2 WakeMod").wake == Wake::oye);
+    CHECK(model_of(older, "1 WakeMod", "2 WakeMod").wake == Wake::oye);
+    CHECK(model_of(older, "2 AFAeroMod", "2 AFAeroMod").airfoils == Airfoils::unsteady);
+    const AirModel steady = model_of(older, "2 AFAeroMod", "1 AFAeroMod");
+    CHECK(steady.airfoils == Airfoils::steady);
+    CHECK(steady.airfoils_source == "AFAeroMod = 1 in main.dat");
 }
 
 TEST_CASE("aerodyn: tower and nacelle", "[analytic]") {
@@ -338,7 +375,7 @@ TEST_CASE("aerodyn: files of AeroDyn 14 and older: elements along the blade, opt
     CHECK(file.options.momentum.tip_loss);
     CHECK(!file.options.momentum.hub_loss);
     CHECK(file.density == 1.1);
-    CHECK(file.unsteady);
+    CHECK(file.model.airfoils == Airfoils::unsteady);
     CHECK(file.airfoils.size() == 2);
     for (const auto& [keyword, why] : {std::pair("StallMod", "UA_Mod = 4"),
                                        {"TwrShad", "no shadow"},

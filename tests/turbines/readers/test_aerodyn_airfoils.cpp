@@ -70,7 +70,7 @@ TEST_CASE("aerodyn airfoils: what the file says, and what it leaves to the progr
     const SmallModel model;
     AeroDynFile file = model.read();
     REQUIRE(file.airfoils.size() == file.blade.polars.size());
-    CHECK(!file.unsteady);
+    CHECK(file.model.airfoils == Airfoils::steady);
     CHECK(!file.airfoils[0].is_unsteady());
     const UnsteadyAirfoil& airfoil = file.airfoils[1];
     CHECK(airfoil.polar().name() == "small_Polar_2.dat");
@@ -124,24 +124,24 @@ TEST_CASE("aerodyn airfoils: where files ask for them, and sections that stay st
     const SmallModel model;
     model.add_to_main("4 UA_Mod - four states\n");
     AeroDynFile file = model.read();
-    CHECK(file.unsteady);
-    CHECK(test::has_note(file.notes, "UA_Mod", "airfoils lag where that is asked for"));
+    CHECK(file.model.airfoils == Airfoils::unsteady);
+    CHECK(!test::has_note(file.notes, "UA_Mod", "airfoils lag"));
     CHECK(test::has_note(file.notes, "AFTabMod", "those of the first Reynolds number"));
     CHECK(file.airfoils[1].own_states() == 4);
     model.replace("small_AeroDyn.dat", "4 UA_Mod", "6 UA_Mod");
     file = model.read();
-    CHECK(test::has_note(file.notes, "UA_Mod", "airfoils lag where that is asked for"));
+    CHECK(!test::has_note(file.notes, "UA_Mod", "airfoils lag"));
     CHECK(file.airfoils[1].own_states() == 1);
     CHECK(file.airfoils[1].lags().boundary_layer == 3);  // AeroDyn's default, not the usual 6
     model.replace("small_AeroDyn.dat", "6 UA_Mod", "3 UA_Mod");
     file = model.read();
-    CHECK(file.unsteady);
+    CHECK(file.model.airfoils == Airfoils::unsteady);
     CHECK(test::has_note(file.notes, "UA_Mod", "as with UA_Mod = 4"));
     model.replace("small_AeroDyn.dat", "3 UA_Mod", "3 UAMod");
-    CHECK(model.read().unsteady);
+    CHECK(model.read().model.airfoils == Airfoils::unsteady);
     model.replace("small_AeroDyn.dat", "3 UAMod", "1 AFAeroMod - steady\n3 UAMod");
     file = model.read();
-    CHECK(!file.unsteady);
+    CHECK(file.model.airfoils == Airfoils::steady);
     CHECK(!test::has_note(file.notes, "UAMod", "lag"));
 
     REQUIRE(file.blade.airfoil == std::vector<std::size_t>{0, 1, 1, 1});
@@ -258,7 +258,7 @@ TEST_CASE("aerodyn airfoils: IEA 22 MW rotor with and without lags against OpenF
     const std::optional<Iea22Rotor> rotor = iea22_rotor();
     if (!rotor) return;
     const AeroDynFile& file = rotor->air;
-    REQUIRE(file.unsteady);
+    REQUIRE(file.model.airfoils == Airfoils::unsteady);
     CHECK(!test::has_note(file.notes, "InclUAdata", "do not fit"));
     const CsvTable table =
         CsvTable::read(std::string(CARDAN_SOURCE_DIR) + "/tests/turbines/operation/iea22_steady.csv");

@@ -156,7 +156,7 @@ void AirEvaluation::find_inductions() {
         const SectionState& s = scratch_.sections[i];
         scratch_.inflows[i] = {&s.annulus, s.relative.dot(s.x), s.relative.dot(s.y)};
     }
-    const auto is_frozen = [](const UnsteadySection& lags) { return lags.wake == WakeLag::frozen; };
+    const auto is_frozen = [](const UnsteadySection& lags) { return lags.wake == Wake::frozen; };
     if (!parts_.options.induction || mean_.share.value == 0 ||
         (parts_.lags && std::ranges::all_of(parts_.lags->sections, is_frozen))) {
         for (std::size_t i = 0; i < count; ++i)
@@ -166,14 +166,28 @@ void AirEvaluation::find_inductions() {
     solve_inductions(scratch_.inflows, parts_.options.momentum, scratch_.inductions);
 }
 
+void AirEvaluation::find_inflow_time() {
+    if (!parts_.lags || parts_.lags->inflow_weights.empty()) return;
+    inflow_time_ = parts_.lags->inflow_time;
+    if (inflow_time_ > 0) return;
+    double induction = 0, wind = 0;
+    const std::size_t count = scratch_.inflows.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        induction += parts_.lags->inflow_weights[i] * mean_.share.value * scratch_.inductions[i].axial;
+        wind += scratch_.inflows[i].V_x / static_cast<double>(count);
+    }
+    inflow_time_ = cardan::inflow_time(parts_.radius, induction, wind);
+}
+
 void AirEvaluation::find_loads() {
     find_inductions();
+    find_inflow_time();
     const std::size_t count = parts_.airfoil->sections();
     for (std::size_t blade = 0; blade < parts_.blades.size(); ++blade) {
         const double along = parts_.options.skew == Skew::none ? 0 : sine(blade);
         for (std::size_t i = blade * count; i < (blade + 1) * count; ++i) {
             SectionState& s = scratch_.sections[i];
-            s.wake = {mean_.angle, s.annulus.radius / parts_.radius * along, mean_.share.value};
+            s.wake = {mean_.angle, s.annulus.radius / parts_.radius * along, mean_.share.value, inflow_time_};
         }
     }
     if (parts_.lags)

@@ -20,6 +20,10 @@ struct AirLags {
     std::vector<UnsteadySection> sections;
     std::vector<int> first;  ///< index of a section's first state
     int states = 0;
+    /// tau_1 of a dynamic wake, s; 0: by the mean induction and wind of the instant, with inflow_weights() of the
+    /// sections.
+    double inflow_time = 0;
+    std::vector<double> inflow_weights;
 };
 
 /// Parts of an evaluation that do not change with the state.
@@ -106,7 +110,8 @@ public:
     /// Power of a wrench about a place that is fixed to a body, W.
     double power(const Wrench& wrench, int body, const Vec3& place) const;
     double density() const { return wind_.density(); }
-    void rates(VectorOut out) const;  ///< of the states
+    double inflow_time() const { return inflow_time_; }  ///< tau_1 of a dynamic wake, s; 0 without
+    void rates(VectorOut out) const;                     ///< of the states
     void steady_states(VectorOut out) const;
     /// Adds those by motion and states.
     void add_derivatives(ElementJacobian& out);
@@ -116,6 +121,7 @@ private:
     void disturb_wind();
     void find_mean_wind();
     void find_inductions();
+    void find_inflow_time();
     void find_loads();
     void find_lagging_air();
     void find_steady_air();
@@ -134,6 +140,7 @@ private:
     WindAtTime wind_;
     Vec3 shaft_, hub_;
     MeanWind mean_ = {};
+    double inflow_time_ = 0;
 };
 
 }  // namespace cardan::turbines

@@ -7,6 +7,7 @@
 #include "turbines/analysis/detail/run_loads.hpp"
 #include "turbines/analysis/machine_wind.hpp"
 #include "turbines/analysis/steady_rotation.hpp"
+#include "turbines/analysis/wind_run.hpp"
 #include "turbines/machine/wind_text.hpp"
 
 #include <algorithm>
@@ -20,52 +21,107 @@ namespace {
 // Out of balance by less, in rad or m, a steady state is good enough to start from.
 constexpr double good_start = 1e-6;
 
-struct Pair {
+// Beside `turbine`, the machine in the mean of the wind.
+struct InTheAir {
     Turbine turbine, at_start;
+    std::optional<MachineAir> air = {}, air_at_start = {};
+    StartGuess guess = {};
 };
 
-Pair in_the_air(const Turbine& machine, const std::optional<MachineAir>& air) {
-    if (!air) return {machine, machine};
-    return {air->on(machine), air->in(air->wind().mean()).on(machine)};
+SteadyRotationOptions rotation_options(const StartGuess& guess, const SimulationSettings& o) {
+    return {.good = good_start,
+            .start = guess.q,
+            .state_start = guess.states,
+            .azimuths = guess.azimuths,
+            .cancelled = o.cancelled};
 }
 
-std::optional<MachineAir> air_on(const Turbine& turbine, const Machine& machine, const SimulationSettings& o,
-                                 const Report& report) {
-    if (o.wind->is_none()) return std::nullopt;
+// A machine whose air does not lag, as it turns steadily or stands; undeformed where it does neither.
+struct SteadyMotion {
+    std::vector<DynamicState> revolution;
+    Matrix coefficients;
+};
+SteadyMotion steady_motion(const Turbine& turbine, const MachineAir& air, const SimulationSettings& o) {
+    const double speed = *o.rotor_speed;
+    const int azimuths = std::max(24, air.min_azimuths());
+    try {
+        if (speed == 0) {
+            const DynamicState still = standstill(turbine, *o.azimuth);
+            return {{still}, still.q};
+        }
+        const solvers::PeriodicSteadyState found =
+            steady_rotation(turbine, speed, rotation_options({.azimuths = air.min_azimuths()}, o));
+        SteadyMotion motion{{}, found.coefficients};
+        for (int i = 0; i < azimuths; ++i) motion.revolution.push_back(found.at(2 * pi * i / azimuths));
+        return motion;
+    } catch (const NumericalError&) {
+        if (o.cancelled && o.cancelled()) throw;
+        DynamicState undeformed = at_rest(Eigen::Index{turbine.system().model.size()});
+        undeformed.qd(turbine.rotor().spin) = speed;
+        return {{undeformed}, {}};
+    }
+}
+
+InTheAir in_air_that_lags(const Turbine& machine, const MachineAir& steady, const AeroelasticOptions& models,
+                          const SimulationSettings& o) {
+    const MachineAir in_mean_wind = steady.in(steady.wind().mean());
+    const Model& model = machine.system().model;
+    const MachineAir at_rest = in_mean_wind.lagging({.airfoils = models.airfoils, .airfoils_at_rest = true});
+    const SteadyMotion motion = steady_motion(at_rest.on(machine), at_rest, o);
+    const MachineAir at_start = air_about(in_mean_wind, model, motion.revolution, models);
+    const MachineAir run = at_start.in(steady.wind());
+    InTheAir out{run.on(machine), at_start.on(machine), run, at_start};
+    out.guess = {.q = motion.coefficients, .azimuths = steady.min_azimuths()};
+    if (at_start.states() > 0)
+        out.guess.states =
+            at_start.with_states(states_about(at_start, model, motion.revolution), out.at_start.system().forces);
+    return out;
+}
+
+InTheAir in_the_air(const Turbine& turbine, const Machine& machine, const SimulationSettings& o, const Report& report) {
+    if (o.wind->is_none()) return {turbine, turbine};
     const Aerodynamics air = air_of(machine, o.air);
-    report_remark(report, {Remark::Kind::taken, text("air of the run: ", air_in_equilibrium(air))});
-    const WindSite site = wind_site(turbine, machine, o.air, air.density);
-    const Wind wind = wind_of(*o.wind, site, report);
+    report_remark(report, {Remark::Kind::taken, text("air of the run: ", turbines::in_words(air.model))});
+    const Wind wind = wind_of(*o.wind, wind_site(turbine, machine, o.air, air.density), report);
     if (!wind.is_steady()) report_remark(report, {Remark::Kind::taken, turbines::in_words(wind)});
-    return MachineAir(turbine, air.blade, wind, air.options, support_on(turbine, machine, air.support));
+    const MachineAir steady(turbine, air.blade, wind, air.options, support_on(turbine, machine, air.support));
+    const AeroelasticOptions models = aeroelastic_options(air);
+    if (models.wake == Wake::oye || models.wake == Wake::frozen || !models.airfoils.empty())
+        return in_air_that_lags(turbine, steady, models, o);
+    const MachineAir in_mean_wind = steady.in(wind.mean());
+    return {steady.on(turbine), in_mean_wind.on(turbine), steady, in_mean_wind, {.azimuths = steady.min_azimuths()}};
 }
 
-solvers::PeriodicSteadyState rotation_in_wind(const Turbine& at_start, const SimulationSettings& o,
+solvers::PeriodicSteadyState rotation_in_wind(const InTheAir& machine, const SimulationSettings& o,
                                               const Report& report) {
     try {
-        return steady_rotation(at_start, *o.rotor_speed, {.good = good_start, .cancelled = o.cancelled}, report);
+        return steady_rotation(machine.at_start, *o.rotor_speed, rotation_options(machine.guess, o), report);
     } catch (const NumericalError& error) {
         throw NumericalError(text(error.what(), "; give the generator's torque: SimulationSettings::generator_torque"));
     }
 }
 
-// About the shaft, mean over a revolution in steady rotation, N m.
-double torque_of(const MachineAir& air, const Turbine& at_start, const SimulationSettings& o, const Report& report) {
+// About the shaft, mean over a revolution in steady rotation, N m. That rotation is a better guess of the start.
+double driving_torque(InTheAir& machine, const SimulationSettings& o, const Report& report) {
     if (*o.rotor_speed == 0) return 0;
+    const MachineAir& air = *machine.air_at_start;
     const int azimuths = std::max(24, air.min_azimuths());
-    const solvers::PeriodicSteadyState state = rotation_in_wind(at_start, o, report);
-    const Model& model = at_start.system().model;
+    const solvers::PeriodicSteadyState state = rotation_in_wind(machine, o, report);
+    const Model& model = machine.at_start.system().model;
     Workspace workspace(model);
     double sum = 0;
     for (int i = 0; i < azimuths; ++i) {
         const DynamicState at = state.at(2 * pi * i / azimuths);
         const Kinematics kin = kinematics(model, at.q, workspace);
-        sum += air.rotor(StateView(at, kin)).moment.x();
+        const ElementValues values = air.values(StateView(at, kin), machine.at_start.system().forces);
+        sum += air.rotor(values.view()).moment.x();
     }
+    machine.guess.q = state.coefficients;
+    machine.guess.states = state.state_coefficients;
     return sum / azimuths;
 }
 
-SimulationModel uncontrolled(const SimulationSettings& o, const Pair& machine, double rotor_torque,
+SimulationModel uncontrolled(const SimulationSettings& o, const InTheAir& machine, double rotor_torque,
                              const TorqueLaw& law) {
     const double ratio = machine.turbine.layout().gear_ratio;
     const GeneratorLoad generator{o.generator_torque.value_or(rotor_torque / ratio),
@@ -79,7 +135,7 @@ SimulationModel uncontrolled(const SimulationSettings& o, const Pair& machine, d
     return model;
 }
 
-SimulationModel controlled(const SimulationSettings& o, const Pair& machine, double rotor_torque,
+SimulationModel controlled(const SimulationSettings& o, const InTheAir& machine, double rotor_torque,
                            const std::vector<ChannelGroup>& measured, const Report& report) {
     const MachineLayout& layout = machine.turbine.layout();
     const double own =
@@ -88,7 +144,10 @@ SimulationModel controlled(const SimulationSettings& o, const Pair& machine, dou
         controlled_machine(o.controller, machine.turbine,
                            {.torque = o.generator_torque.value_or(own), .also_measured = measured, .report = report});
     report_remark(report, {Remark::Kind::taken, text("controller: ", under.pitch)});
-    return {under.turbine, machine.at_start, {std::move(under.controller)}, {std::move(under.channels)}};
+    return {.turbine = under.turbine,
+            .at_start = machine.at_start,
+            .controllers = {std::move(under.controller)},
+            .channels = {std::move(under.channels)}};
 }
 
 void add_rotor_torque(const RotorTorque& torque, SimulationModel& model) {
@@ -99,27 +158,43 @@ void add_rotor_torque(const RotorTorque& torque, SimulationModel& model) {
 }
 
 // At the start, N m, as far as it is the generator's to balance.
-double driving_torque(const Machine& machine, const SimulationSettings& o, const std::optional<MachineAir>& air,
-                      const Turbine& at_start, const Report& report) {
-    if (air && !o.generator_torque && dofs_of(machine.description).generator)
-        return torque_of(*air, at_start, o, report);
-    return !air && o.controller.acts() && o.rotor_torque.acts() ? o.rotor_torque.values.front() : 0;
+double torque_to_balance(const Machine& machine, const SimulationSettings& o, InTheAir& in_air, const Report& report) {
+    if (in_air.air && !o.generator_torque && dofs_of(machine.description).generator)
+        return driving_torque(in_air, o, report);
+    return !in_air.air && o.controller.acts() && o.rotor_torque.acts() ? o.rotor_torque.values.front() : 0;
 }
 
 // Empty, with the reason reported: there is no steady state, or it was not found.
-std::optional<SimulationState> steady_start(const Turbine& turbine, const SimulationSettings& o, const Report& report) {
+std::optional<DynamicState> steady_start(const SimulationModel& model, const SimulationSettings& o,
+                                         const Report& report) {
     const double speed = *o.rotor_speed, azimuth = *o.azimuth;
+    const StartGuess& guess = model.guess;
     try {
-        const DynamicState at =
-            speed == 0
-                ? standstill(turbine, azimuth)
-                : steady_rotation(turbine, speed, {.good = good_start, .cancelled = o.cancelled}, report).at(azimuth);
-        return SimulationState{at.q, at.qd};
+        if (speed != 0) return steady_rotation(model.at_start, speed, rotation_options(guess, o), report).at(azimuth);
+        return standstill(model.at_start, azimuth, guess.states.size() > 0 ? Vector(guess.states.col(0)) : Vector());
     } catch (const NumericalError& error) {
         if (o.cancelled && o.cancelled()) throw;
         report_remark(report, {.text = text("the start is undeformed: ", error.what())});
         return std::nullopt;
     }
+}
+
+// Straight, the states as in the guess.
+DynamicState undeformed(const SimulationModel& model) {
+    DynamicState at = at_rest(Eigen::Index{model.at_start.system().model.size()});
+    at.s = model.guess.states.size() > 0 ? Vector(model.guess.states.col(0))
+                                         : model.at_start.system().forces.states().initial();
+    return at;
+}
+
+// Those of the machine at the start where it has them as well, the others as their table says.
+Vector states_of(const Turbine& turbine, const Turbine& at_start, const Vector& states) {
+    const StateTable& table = turbine.system().forces.states();
+    const StateTable& known = at_start.system().forces.states();
+    Vector all = table.initial();
+    for (int i = 0; i < table.size(); ++i)
+        if (const int own = known.find(table[i].name); own >= 0) all(i) = states(own);
+    return all;
 }
 
 void set_named(const std::map<std::string, double>& named, const char* field, const CoordinateTable& table,
@@ -139,14 +214,15 @@ SimulationModel simulation_model(const Machine& machine, const SimulationSetting
         assembled(machine, assembly, usual_frequency(machine.description, assembly), std::abs(*o.rotor_speed), report);
     mesh = ready.mesh;
     report_remark(report, {Remark::Kind::taken, in_words(mesh)});
-    const std::optional<MachineAir> air = air_on(ready.turbine, machine, o, report);
-    const Pair pair = in_the_air(ready.turbine, air);
+    InTheAir in_air = in_the_air(ready.turbine, machine, o, report);
     const TorqueLaw law = torque_law_of(machine, o);
-    const double driving = law.acts() ? 0 : driving_torque(machine, o, air, pair.at_start, report);
+    const double driving = law.acts() ? 0 : torque_to_balance(machine, o, in_air, report);
+    const std::optional<MachineAir>& air = in_air.air;
     std::vector<ChannelGroup> wind;
     if (air) wind.push_back(air->channels());
     SimulationModel model =
-        o.controller.acts() ? controlled(o, pair, driving, wind, report) : uncontrolled(o, pair, driving, law);
+        o.controller.acts() ? controlled(o, in_air, driving, wind, report) : uncontrolled(o, in_air, driving, law);
+    model.guess = in_air.guess;
     model.channels.insert(model.channels.end(), wind.begin(), wind.end());
     add_rotor_torque(o.rotor_torque, model);
     if (air) {
@@ -156,18 +232,19 @@ SimulationModel simulation_model(const Machine& machine, const SimulationSetting
     return model;
 }
 
-SimulationState start_of(const Turbine& at_start, const SimulationSettings& o, const Report& report) {
-    const System& system = at_start.system();
-    const int spin = at_start.rotor().spin;
-    std::optional<SimulationState> start;
-    if (o.start == SimulationStart::steady) start = steady_start(at_start, o, report);
-    if (!start) start = {Vector::Zero(system.model.size()), Vector::Zero(system.model.size())};
-    start->q(spin) = *o.azimuth;
-    start->qd(spin) = *o.rotor_speed;
-    const CoordinateTable& table = system.model.coordinates();
-    set_named(o.q, "SimulationSettings::q", table, start->q);
-    set_named(o.qd, "SimulationSettings::qd", table, start->qd);
-    return *std::move(start);
+SimulationState start_of(const SimulationModel& model, const SimulationSettings& o, const Report& report) {
+    const Turbine& turbine = model.turbine;
+    const int spin = turbine.rotor().spin;
+    std::optional<DynamicState> at;
+    if (o.start == SimulationStart::steady) at = steady_start(model, o, report);
+    if (!at) at = undeformed(model);
+    SimulationState start{at->q, at->qd, states_of(turbine, model.at_start, at->s)};
+    start.q(spin) = *o.azimuth;
+    start.qd(spin) = *o.rotor_speed;
+    const CoordinateTable& table = turbine.system().model.coordinates();
+    set_named(o.q, "SimulationSettings::q", table, start.q);
+    set_named(o.qd, "SimulationSettings::qd", table, start.qd);
+    return start;
 }
 
 }  // namespace cardan::turbines

@@ -11,10 +11,17 @@
 
 namespace cardan::turbines {
 
+/// A steady state to look for another one from: PeriodicOptions::start and state_start. Empty: undeformed.
+struct StartGuess {
+    Matrix q = {}, states = {};
+    int azimuths = 0;  ///< SteadyRotationOptions::azimuths
+};
+
 /// The machine as it runs.
 struct SimulationModel {
     Turbine turbine;
-    Turbine at_start;  ///< `turbine` without anything that changes: springs in the place of actuators
+    Turbine at_start;  ///< `turbine` without anything that changes: springs in the place of actuators, a steady wind
+    StartGuess guess = {};
     std::vector<solvers::SampledController> controllers = {};
     std::vector<ChannelGroup> channels = {};  ///< beside those of any machine
     std::string wind = {};                    ///< as text, for the file of the run
@@ -26,12 +33,12 @@ struct SimulationModel {
 SimulationModel simulation_model(const Machine& machine, const SimulationSettings& options, Mesh& mesh,
                                  const Report& report);
 
-/// Positions and rates at time zero.
+/// Positions, rates and states at time zero.
 struct SimulationState {
-    Vector q, qd;
+    Vector q, qd, s;
 };
 /// Steady, or undeformed, with a note, where there is no steady state.
-SimulationState start_of(const Turbine& at_start, const SimulationSettings& options, const Report& report);
+SimulationState start_of(const SimulationModel& model, const SimulationSettings& options, const Report& report);
 
 /// Settings of a run but its length, in words: start, controller, torque, wind.
 std::string in_words(const SimulationSettings& options);

@@ -17,8 +17,7 @@ std::string wind_in_words(const SimulationSettings& o) {
     const std::string source = o.wind->speed() != nullptr  ? text(*o.wind->speed())
                                : o.wind->file() != nullptr ? "of a file"
                                                            : "as given";
-    return text(", wind ", source, ", ", in_words(o.air), ", ",
-                air_in_words(o.air.induction ? "quasi-steady" : "none", false));
+    return text(", wind ", source, ", ", in_words(o.air));
 }
 
 }  // namespace

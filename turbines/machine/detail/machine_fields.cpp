@@ -47,6 +47,9 @@ Aerodynamics aerodynamics_of(AirFields fields) {
     }
     air.blade.check();
     require_positive("all", "density [kg/m^3]", air.density);
+    require_not_negative("all", "inflow_time_constant [s]", air.model.inflow_time_constant);
+    if (!air.options.induction) air.model.wake = Wake::none;
+    air.options.induction = air.model.wake != Wake::none;
     if (!air.torsion_sweep.empty() && air.torsion_sweep.size() != air.blade.sections())
         throw InputError("blade", "values of torsion_sweep", air.torsion_sweep.size(),
                          text(air.blade.sections(), ", one per section"));

@@ -102,6 +102,11 @@ template <class Archive, class Fields>
 void air_fields(Archive& archive, Fields& f) {
     archive.optional_number("density", f.air.density);
     archive.optional_number("viscosity", f.air.blade.viscosity);
+    archive.optional_choice("wake", f.air.model.wake, {Wake::none, Wake::frozen, Wake::equilibrium, Wake::oye});
+    archive.optional_number("inflow_time_constant", f.air.model.inflow_time_constant);
+    archive.optional_choice("airfoil_model", f.air.model.airfoils, {Airfoils::steady, Airfoils::unsteady});
+    archive.optional_word("wake_source", f.air.model.wake_source);
+    archive.optional_word("airfoils_source", f.air.model.airfoils_source);
     archive.group_if(true, "momentum", [&] {
         archive.optional_flag("induction", f.air.options.induction);
         archive.optional_choice("skew", f.air.options.skew, {Skew::none, Skew::pitt_peters});

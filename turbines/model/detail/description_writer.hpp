@@ -91,7 +91,7 @@ public:
     }
     template <class Value>
     void optional_choice(const char* key, Value value, std::initializer_list<Value> /*allowed*/) {
-        entry(key, name_of(value));
+        entry(key, std::string(name_of(value)));
     }
     void vector(const char* key, const Vec3& value) { entry(key, list(value)); }
     void matrix(const char* key, const Mat6& value) { entry(key, rows(value)); }

@@ -86,12 +86,16 @@ void read_options(OpenFastFile& file, AeroDynFile& out) {
                             .rotation = says(file, "IndModel", "swirl"),
                             .tangential_drag = false};
     if (says(file, "TLModel", "gtech")) file.note("TLModel", "Prandtl's loss at the tip here");
-    if (says(file, "InfModel", "dynin")) file.note("InfModel", "the wake is in equilibrium here");
-    out.unsteady = !says(file, "StallMod", "steady");
-    if (out.unsteady)
-        file.note("StallMod",
-                  "where that is asked for airfoils lag as with UA_Mod = 4 of AeroDyn 15; else they are "
-                  "steady here");
+    const bool dynamic = says(file, "InfModel", "dynin"), steady = says(file, "StallMod", "steady");
+    const std::string name = std::filesystem::path(file.name()).filename().string();
+    out.model = {.wake = !out.options.induction ? Wake::none
+                         : dynamic              ? Wake::oye
+                                                : Wake::equilibrium,
+                 .airfoils = steady ? Airfoils::steady : Airfoils::unsteady,
+                 .wake_source = text(out.options.induction ? "InfModel in " : "IndModel in ", name),
+                 .airfoils_source = text("StallMod in ", name)};
+    if (dynamic) file.note("InfModel", "two filters in series for every section here, as DBEMT_Mod = 2 of AeroDyn 15");
+    if (!steady) file.note("StallMod", "airfoils lag as with UA_Mod = 4 of AeroDyn 15 here");
     if (file.has("TwrShad") && file.word("TwrShad") != "0") file.note("TwrShad", "the tower has no shadow here");
 }
 
