@@ -37,7 +37,7 @@ struct AirModel {
     Wake wake = Wake::oye;
     double inflow_time_constant = 0;  ///< tau_1 of Wake::oye, s; 0: inflow_time() of the instant
     Airfoils airfoils = Airfoils::unsteady;
-    /// What says so, a keyword with its value and its file; empty: they are the defaults.
+    /// Keyword, value and file that ask for them; empty: they are the defaults.
     std::string wake_source = {}, airfoils_source = {};
 };
 

@@ -102,7 +102,7 @@ public:
     /// Residual of the unknowns at given accelerations and rates.
     /// @param x, xdd  as above;  @param r  out, rates()
     bool residual(double time, const double* x, const double* xdd, double* r);
-    /// Where the driven coordinates are in this state, whatever their motions are now.
+    /// Residual where the driven coordinates are in this state, whatever their motions are now.
     /// @param driven  driven_state()
     bool residual(double time, const double* x, const double* xdd, const double* driven, double* r);
 

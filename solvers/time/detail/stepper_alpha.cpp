@@ -170,27 +170,24 @@ void AlphaStepper::do_resume(double time, const double* x, double stop, const do
 
 // The matrix that was remembered, to the last digit: the one that there is, or formed anew.
 void AlphaStepper::recall_matrix(const double* memory) {
-    Formed there = formed_;
-    const double* in = memory + 3;
-    there.step = memory[0];
-    there.time = memory[1];
-    for (Vector* part : {&there.x, &there.qdd, &there.u, &there.driven}) {
+    const double step = memory[0], time = memory[1], *in = memory + 3;
+    bool same = step == formed_.step && time == formed_.time;
+    for (Vector* part : {&formed_.x, &formed_.qdd, &formed_.u, &formed_.driven}) {
+        same = std::equal(part->begin(), part->end(), in) && same;
         std::copy_n(in, part->size(), part->data());
         in += part->size();
     }
-    if (there.step != formed_.step || there.time != formed_.time || there.x != formed_.x || there.qdd != formed_.qdd ||
-        there.u != formed_.u || there.driven != formed_.driven) {
-        formed_.step = 0;
-        if (there.step == 0) return;
-        const Vector inputs = equations_.inputs();
-        equations_.set_inputs(there.u);
-        if (equations_.residual(there.time, there.x.data(), there.qdd.data(), there.driven.data(), change_.data())) {
-            form_matrix(there.step);
-            formed_ = there;
-        }
-        equations_.set_inputs(inputs);
-    }
+    formed_.step = step;
+    formed_.time = time;
     contraction_ = memory[2];
+    if (same || step == 0) return;
+    const Vector inputs = equations_.inputs();
+    equations_.set_inputs(formed_.u);
+    if (equations_.residual(time, formed_.x.data(), formed_.qdd.data(), formed_.driven.data(), change_.data()))
+        form_matrix(step);
+    else
+        formed_.step = 0;
+    equations_.set_inputs(inputs);
 }
 
 // So short that the acceleration moves nothing by more than the tolerance; it grows fast.
@@ -252,10 +249,6 @@ void AlphaStepper::predict(double h) {
 void AlphaStepper::form_matrix(double h) {
     equations_.linearise_residual();
     matrix_.form({.qdd = per_position(h), .qd = per_rate(h), .q = 1, .s_rate = per_state(h), .s = 1});
-    formed_.step = h;
-    formed_.u = equations_.inputs();
-    equations_.driven_state(formed_.driven.data());
-    contraction_ = 1;
 }
 
 // Newton's method for the accelerations at the end, in terms of the positions there. The matrix is kept from step to
@@ -277,11 +270,15 @@ bool AlphaStepper::iterate(double h, Tangent tangent) {
         // How well it contracts with a new one is known after the next.
         if (tangent == Tangent::fresh && (i == 0 || (i > 1 && contraction_ > 0.3))) {
             form_matrix(h);
-            ++statistics_.jacobians;
-            ++statistics_.factorisations;
+            formed_.step = h;
             formed_.time = begin_ + h;
             formed_.x = to_.x;
             formed_.qdd = to_.qdd;
+            formed_.u = equations_.inputs();
+            equations_.driven_state(formed_.driven.data());
+            contraction_ = 1;
+            ++statistics_.jacobians;
+            ++statistics_.factorisations;
         }
         matrix_.solve(change_);
         if (!change_.allFinite()) return false;

@@ -78,6 +78,23 @@ TEST_CASE("sampled controllers: a step and a tenth of a Jacobian per sample wher
     CHECK((run.state().q - at_end(system, sampled(1e-10), end)).lpNorm<Eigen::Infinity>() < 1e-3);
 }
 
+TEST_CASE("sampled controllers: generalised alpha takes a step per sample, three evaluations and hardly a matrix",
+          "[solvers][integrate][property]") {
+    const System system = driven_chain();
+    constexpr double end = 4;
+    const long samples = std::lround(end / period);
+    IntegrationOptions options = sampled(1e-2);
+    options.method = Method::generalised_alpha;
+    Integrator run(system, {}, 0, Vector::Constant(6, 0.05), Vector::Zero(6), options);
+    REQUIRE(run.advance(end).reached());
+    const IntegrationStatistics cost = run.statistics();
+    CHECK(cost.steps < samples * 5 / 4);
+    CHECK(cost.evaluations < 4 * samples);
+    CHECK(cost.jacobians < samples / 10);
+    CHECK(cost.restarts == 0);
+    CHECK((run.state().q - at_end(system, sampled(1e-10), end)).lpNorm<Eigen::Infinity>() < 0.02);
+}
+
 TEST_CASE("sampled controllers: the method keeps its order", "[solvers][integrate][property]") {
     const System system = driven_chain(5, 0.01);  // as fast as the steps
     constexpr double end = 0.4;
@@ -106,15 +123,18 @@ TEST_CASE("sampled controllers: matrices kept over samples and breaks are there 
         u(0) = 0.6 * std::sin(5 * in.time) - 0.2 * in.q(0);
         u(1) = 0.05 * std::cos(3 * in.time);
     };
+    IntegrationOptions alpha = following;
+    alpha.method = Method::generalised_alpha;
+    alpha.tolerances.relative = 1e-3;
     const Vector q = Vector::Constant(6, 0.05), zero = Vector::Zero(6);
     const std::vector<double> times{0.1, 0.313, 0.5, 0.507, 0.92, 1.5};
-    for (const IntegrationOptions& options : {fixed, following}) {
+    for (const IntegrationOptions& options : {fixed, following, alpha}) {
         Integrator whole(system, {}, 0, q, zero, options);
         std::vector<Checkpoint> checkpoints;
         REQUIRE(whole.run(times, [&](Integrator& now) { checkpoints.push_back(now.checkpoint()); }).reached());
         CHECK(whole.statistics().jacobians < 40);  // kept over two samples and more
         for (std::size_t k = 0; k + 1 < times.size(); ++k) {
-            CAPTURE(times[k], options.controllers[0].drives.size());
+            CAPTURE(times[k], options.controllers[0].drives.size(), static_cast<int>(options.method));
             Integrator rest(system, {}, checkpoints[k], options);
             REQUIRE(rest.run({times.begin() + static_cast<std::ptrdiff_t>(k) + 1, times.end()}, {}).reached());
             CHECK(rest.state().q == whole.state().q);
