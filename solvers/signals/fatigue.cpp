@@ -13,8 +13,7 @@ namespace {
 // Peaks and troughs, the first and the last value among them.
 std::vector<double> turning_points(std::span<const double> signal) {
     std::vector<double> points;
-    for (std::size_t i = 0; i < signal.size(); ++i) {
-        const double value = signal[i];
+    for (const double value : signal) {
         if (!std::isfinite(value)) throw InputError("rainflow counting", "value", value, "finite");
         if (!points.empty() && value == points.back()) continue;
         const std::size_t n = points.size();
