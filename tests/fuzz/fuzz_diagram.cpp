@@ -1,4 +1,5 @@
 // A good Campbell diagram with changes at arbitrary places.
+#include "solvers/campbell/diagram.hpp"
 #include "solvers/hdf5/campbell.hpp"
 #include "tests/fuzz/fuzz_hdf5.hpp"
 #include "turbines/machine/result.hpp"
