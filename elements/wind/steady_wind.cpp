@@ -130,6 +130,8 @@ void SteadyWind::check() const {
                                            {"veer [rad/m]", veer, 1e3},
                                            {"upflow [rad]", upflow, pi / 2}})
         if (std::abs(value) > max) throw InputError("wind", name, value, text(-max, " ... ", max));
+    // Powers of a height over less leave the range of numbers.
+    if (reference_height < 1e-3) throw InputError("wind", "reference height [m]", reference_height, "at least 0.001");
     if (shear == Shear::logarithmic && !(roughness > 0 && roughness < reference_height))
         throw InputError("wind", "roughness [m]", roughness,
                          text("0 ... ", reference_height, ", the reference height"));

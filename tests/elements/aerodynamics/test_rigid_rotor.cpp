@@ -217,6 +217,8 @@ TEST_CASE("wind: laws of shear, direction, veer, upflow", "[analytic]") {
     check_refused([] { SteadyWind{.shear = Shear::logarithmic}.check(); }, {"roughness [m] = 0"});
     check_refused([] { SteadyWind{.density = 0}.check(); }, {"density"});
     check_refused([] { SteadyWind{.exponent = 1e5}.check(); }, {"exponent of the shear = 1", "-10 ... 10"});
+    check_refused([] { SteadyWind{.reference_height = 4.2e-71}.check(); },
+                  {"reference height [m] = 4.2e-71", "at least 0.001"});
     check_refused([] { SteadyWind{.speed = 1e308}.check(); }, {"speed [m/s] = 1e+308", "-1000 ... 1000"});
     check_refused([] { SteadyWind{.speed = 8, .direction = 1e300}.check(); }, {"direction [rad] = 1e+300"});
 }
