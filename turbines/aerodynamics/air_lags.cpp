@@ -191,13 +191,11 @@ Vector MachineAir::with_states(const Vector& own, const Forces& forces) const {
 }
 
 double MachineAir::inflow_time_constant(const ElementView& at) const {
-    AirParts parts = *parts_;
-    parts.lags = AirLags{};
-    parts.lags->sections.resize(parts.blades.size() * parts.airfoil->sections());
-    parts.lags->first.resize(parts.lags->sections.size());
-    parts.lags->inflow_weights = weights_of(parts);
+    const MachineAir varying = lagging({.dynamic_inflow = true});
+    const Vector any = Vector::Zero(varying.states());
     Borrowed<AirScratch> scratch;
-    return AirEvaluation(parts, at, *scratch).inflow_time();
+    const ElementView with_states(at.time, at.q, at.qd, any, at.others, at.u, at.system);
+    return AirEvaluation(*varying.parts_, with_states, *scratch).inflow_time();
 }
 
 }  // namespace cardan::turbines
