@@ -2,11 +2,13 @@
 /// The model files of tests/data: in a folder of their own, to be changed and read again.
 #pragma once
 
+#include "tests/support/catch.hpp"
 #include "tests/support/files.hpp"
 #include "turbines/readers/openfast.hpp"
 #include "turbines/yaml/description.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <sstream>
 #include <vector>
 
@@ -34,6 +36,16 @@ struct ModelFolder {
         write(name, all.replace(at, old_text.size(), new_text));
     }
 };
+
+/// Checks that the message of the error that `call` throws contains all `parts`.
+template <class Call>
+void check_error(Call&& call, std::initializer_list<std::string> parts) {
+    const std::string message = message_of(call);
+    for (const std::string& part : parts) {
+        CAPTURE(message, part);
+        CHECK(message.find(part) != std::string::npos);
+    }
+}
 
 /// Everything that counts of a machine that was read, as a text; not its name and the text of the files.
 inline std::string state(turbines::TurbineFile file) {
